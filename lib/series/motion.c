@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "series/alike.h"
+
 /* The largest numbers of rows that a step of the program reads, and that it writes. */
 enum { READS = 3, WRITES = 4 };
 
@@ -247,5 +249,6 @@ qdot_motion_clear(qdot_motion *m)
     qdot_free(m->blocks.at);
     qdot_free(m->entries.at);
     qdot_free(m->right.at);
+    qdot_alike_free(m->alike);
     *m = (qdot_motion){0};
 }

@@ -56,6 +56,7 @@ typedef struct {
     qdot_vec(qdot_motion_entry) entries;  /* K, its other entries 0; none: it follows from steps
                                              that are `newest` (_column of an executor) */
     qdot_vec(qdot_program_row) right; /* right-hand sides of the explicit equations, which are the first right.n equations */
+    struct qdot_alike *alike; /* its parts that are alike (alike.h); NULL: few are */
     size_t written; /* number of steps at the end of the program that compute only the rows of explicit equations */
 } qdot_motion;
 

@@ -21,6 +21,12 @@ typedef struct qdot_taylor_wide qdot_taylor_wide;
 
 enum { QDOT_WIDE_LANES = 8 };
 
+/* The rows of a step as lanes: order 0 of each. A row that the step does not have is any of the others. */
+typedef struct {
+    double *to, *second, *third, *d;
+    const double *x, *y, *z;
+} qdot_wide_rows;
+
 /* The rows of eight lanes in the sum over j = 0 ... n - 1 of x[j x_stride] y[-j y_stride]. */
 typedef struct {
     const double *x, *y;

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "expr/constant.h"
+#include "series/alike-kinds.h"
 #include "sim/model/constraints.h"
 
 /* Builds the equations for the unknowns: first q'' of the coordinates, then the constraints' multipliers. */
@@ -200,7 +201,13 @@ make_motion(const qdot_plan *plan, size_t n, qdot_motion *motion)
 qdot_status
 qdot_motion_of_equations(const qdot_plan *plan, qdot_motion *motion)
 {
-    return make_motion(plan, plan->n, motion);
+    qdot_status status;
+
+    QDOT_TRY(make_motion(plan, plan->n, motion));
+    status = qdot_alike_find(motion);
+    if (status != QDOT_OK)
+        qdot_motion_clear(motion);
+    return status;
 }
 
 qdot_status

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "series/taylor-alike.h"
 #include "sim/form/expansion.h"
 #include "sim/form/momentum-rows.h"
 #include "sim/form/motion-matrix.h"
@@ -20,6 +21,7 @@ struct qdot_motion_series {
     qdot_expansion at; /* the series program of the motion in doubles */
     qdot_motion_matrix K;
     qdot_momentum_rows momenta;
+    qdot_taylor_alike *alike; /* what carries out parts that are alike, by vectors; NULL: the program is carried out */
     qdot_lanes_motion *code; /* vector machine code, as for ensembles; NULL: none */
     const char *why; /* why there is no machine code; NULL: the program tells */
     bool begun;      /* an expansion has been begun at least once */
@@ -66,7 +68,9 @@ check_accelerations(const qdot_motion_series *s)
 static qdot_status
 begin_expansion(qdot_motion_series *s, double t, const double *y)
 {
-    if (gives_all_accelerations(s)) {
+    if (s->alike) {
+        qdot_taylor_alike_begin(s->alike, s->unit);
+    } else if (gives_all_accelerations(s)) {
         qdot_taylor_begin(s->at.taylor, s->unit);
     } else {
         QDOT_TRY(qdot_motion_matrix_begin(&s->K, t, y));
@@ -123,7 +127,9 @@ motion_series_extend(int p, void *user)
     qdot_motion_matrix_prepare(&s->K, p > s->order ? p : s->order);
     if (as_code)
         qdot_motion_matrix_hand_over(&s->K, s->at.taylor);
-    if (as_code || gives_all_accelerations(s)) {
+    if (s->alike) {
+        qdot_taylor_alike_extend(s->alike, 1, p - 1);
+    } else if (as_code || gives_all_accelerations(s)) {
         qdot_taylor_extend(s->at.taylor, 1, p - 1);
     } else if (has_lanes_code(p, s)) {
         qdot_motion_matrix_hand_to_lanes(&s->K, s->code);
@@ -142,8 +148,10 @@ motion_series_extend(int p, void *user)
 static double
 find_negligible_step(int p, double step, double least, void *user)
 {
-    return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step,
-                            least);
+    const qdot_motion_series *s = user;
+
+    return s->alike ? qdot_taylor_alike_near(s->alike, p - 2, step, least)
+                    : qdot_taylor_near(s->at.taylor, p - 2, step, least);
 }
 
 static double
@@ -195,6 +203,13 @@ take_no_lanes_code(int p, int most, void *user)
     return false;
 }
 
+/* Whether the parts of the motion that are alike are carried out by vectors: nothing else reads their rows then. */
+static bool
+runs_like_parts(const qdot_plan *p, const qdot_motion *m)
+{
+    return m->alike && p->n_kept == 0;
+}
+
 /* --- making the series ----------------------------------------------------------------- */
 
 /* Whether machine code may be written: all blocks are definite and have at most `most` unknowns. */
@@ -224,6 +239,10 @@ choose_machine_code(qdot_motion_series *s)
 {
     if (s->K.saddle)
         return;
+    if (s->alike) {
+        s->why = "parts that are alike are vectors of compiled functions";
+        return;
+    }
     s->why = "machine code is not asked for";
     if (s->K.masses) {
         s->series.code = (qdot_ode_code){
@@ -246,6 +265,8 @@ make_motion_series(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
     QDOT_TRY(qdot_taylor_of_motion(s->motion, shaken, most_order,
                                    has_factor ? QDOT_BLOCKS_SOLVED : 0, &s->at.taylor));
     s->at = qdot_expansion_of(s->at.taylor, p->n);
+    if (runs_like_parts(p, s->motion))
+        QDOT_TRY(qdot_taylor_alike_new(s->motion, s->at.taylor, &s->alike));
     QDOT_TRY(qdot_momentum_rows_init(&s->momenta, p, s->at, shaken));
     QDOT_TRY(qdot_motion_matrix_init(&s->K, p, s->motion, masses, s->at.taylor, shaken));
     s->series = (qdot_ode_series){
@@ -305,6 +326,7 @@ qdot_motion_series_free(qdot_motion_series *s)
     if (!s)
         return;
     qdot_lanes_motion_free(s->code);
+    qdot_taylor_alike_free(s->alike);
     qdot_taylor_free(s->at.taylor);
     qdot_momentum_rows_clear(&s->momenta);
     qdot_motion_matrix_clear(&s->K);
@@ -335,7 +357,8 @@ qdot_motion_series_work(const qdot_plan *p)
 {
     qdot_work w = qdot_work_of_motion(p, p->motion, p->bordered ? p->bordered : p->tape);
 
-    w.code = may_have_whole_code(p, p->motion);
+    w.vectors = runs_like_parts(p, p->motion) ? p->motion->alike->vectors : 0;
+    w.code = w.vectors == 0 && may_have_whole_code(p, p->motion);
     return w;
 }
 

@@ -24,8 +24,8 @@ typedef struct {
      * its inverse is made. */
     double filled;
     bool inverted;
-    /* Along a tree: nodes; convolutions of whole vectors; products of the sweeps, and of
-     * their beginning. */
+    /* Along a tree: nodes; convolutions of whole vectors, which like parts have too; products of the sweeps, and
+     * of their beginning. */
     double nodes, vectors, products, begun;
     bool code; /* machine code can be generated, if the processor supports it */
 } qdot_work;

@@ -34,6 +34,12 @@ static const model explicit_kernels = {
               [SQUARES] = 0.5},
     .pair = {[CONVOLUTIONS] = 0.12}};
 
+/* Parts that are alike as vectors: 6 to 100 bodies that attract each other. */
+static const model explicit_alike = {
+    .start = {[ONE] = 60, [VECTORS] = 20, [COORDINATES] = 10},
+    .order = {[VECTORS] = 12, [COORDINATES] = 4},
+    .pair = {[VECTORS] = 0.2}};
+
 /* The same as code, whose orders and pairs are those of `kinds` times this: expansions of the
  * five scenes of bench/numeric. What every step takes is known better here than of kernels,
  * for it decides. */
@@ -159,7 +165,7 @@ qdot_cost_explicit(const qdot_work *w)
     const bool solves = w->unknowns > 0;
     qdot_ode_cost c = {0};
 
-    apply_cost_model(&explicit_kernels, w, c.kernels);
+    apply_cost_model(w->vectors > 0 ? &explicit_alike : &explicit_kernels, w, c.kernels);
     if (!w->code)
         return c;
     c.worth = worth.of_explicit + worth.by_length / (w->length + 1);
