@@ -60,6 +60,68 @@ is_simple_product(const qdot_pool *pool, qdot_expr e)
     return functions <= 1 && sums <= 1 && (functions + sums == 0 || !below);
 }
 
+/* --- distances ---------------------------------------------------------------------------- */
+
+/* The symbols of the components of a distance, each of which stands in one alone. */
+typedef struct {
+    qdot_expr symbol[MOST_COLLECTED];
+    uint32_t n;
+} component_symbols;
+
+static bool
+take_symbol(const qdot_pool *pool, component_symbols *s, qdot_expr symbol)
+{
+    if (qdot_expr_kind(pool, symbol) != QDOT_SYM || s->n == MOST_COLLECTED)
+        return false;
+    for (uint32_t i = 0; i < s->n; i++)
+        if (s->symbol[i] == symbol)
+            return false;
+    s->symbol[s->n++] = symbol;
+    return true;
+}
+
+/* Whether e is u^2 with a symbol u, or a sum u of symbols with factors 1 and -1. */
+static bool
+is_squared_component(const qdot_pool *pool, qdot_expr e, component_symbols *s)
+{
+    qdot_expr u;
+    int64_t k;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD || qdot_expr_count(pool, e) != 3 ||
+        qdot_expr_arg(pool, e, 0) != QDOT_ONE || !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, 2), &k) || k != 2)
+        return false;
+    u = qdot_expr_arg(pool, e, 1);
+    if (qdot_expr_kind(pool, u) != QDOT_SUM)
+        return take_symbol(pool, s, u);
+    if (qdot_expr_arg(pool, u, 0) != QDOT_ZERO)
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, u); i += 2)
+        if ((qdot_expr_arg(pool, u, i + 1) != QDOT_ONE && qdot_expr_arg(pool, u, i + 1) != QDOT_MINUS_ONE) ||
+            !take_symbol(pool, s, qdot_expr_arg(pool, u, i)))
+            return false;
+    return true;
+}
+
+/* Whether e is sqrt(u^2 + v^2 + ...) of such components, two or more: nothing in it cancels. */
+static bool
+is_distance(const qdot_pool *pool, qdot_expr e)
+{
+    component_symbols s = {.n = 0};
+    qdot_expr sum;
+
+    if (qdot_expr_kind(pool, e) != QDOT_PROD || qdot_expr_count(pool, e) != 3 ||
+        qdot_expr_arg(pool, e, 0) != QDOT_ONE || qdot_expr_arg(pool, e, 2) != QDOT_HALF)
+        return false;
+    sum = qdot_expr_arg(pool, e, 1);
+    if (qdot_expr_kind(pool, sum) != QDOT_SUM || qdot_expr_arg(pool, sum, 0) != QDOT_ZERO ||
+        qdot_expr_count(pool, sum) < 5)
+        return false;
+    for (uint32_t i = 1; i < qdot_expr_count(pool, sum); i += 2)
+        if (qdot_expr_arg(pool, sum, i + 1) != QDOT_ONE || !is_squared_component(pool, qdot_expr_arg(pool, sum, i), &s))
+            return false;
+    return true;
+}
+
 /* --- sums collected in velocities -------------------------------------------------------- */
 
 #define FAST (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)
@@ -143,7 +205,7 @@ qdot_simple_is_done(const qdot_pool *pool, qdot_expr e)
     case QDOT_INTEGRAL: return false;
     case QDOT_FUN:
     case QDOT_UFUN: return is_plain_function(pool, e);
-    case QDOT_PROD: return is_simple_product(pool, e);
+    case QDOT_PROD: return is_simple_product(pool, e) || is_distance(pool, e);
     default: return is_plain_sum(pool, e);
     }
 }

@@ -5,7 +5,7 @@
 #include "expr/id.h"
 
 /* Whether e is obviously as simple as possible without relations: powers of symbols times at most
- * one function and one sum of parameters. e a scalar. */
+ * one function and one sum of parameters, or a distance sqrt((a - b)^2 + (c - d)^2 + ...) of different symbols. e a scalar. */
 bool qdot_simple_is_done(const qdot_pool *pool, qdot_expr e);
 
 /* Whether e is a sum of terms in different velocities and accelerations, one to any power in

@@ -508,6 +508,40 @@ sums_of_angles_are_seen(void **state)
     assert_true(seen > 250);
 }
 
+/* A distance of points is seen at a glance to be what the field leaves of it; what holds common factors, constants or
+ * one symbol in two components is not. */
+static void
+distances_are_seen(void **state)
+{
+    static const char *const component[] = {"x1 - x2", "y2 - y1", "z1", "x1 + y1", "2*x1 - x2", "y1 - 1", "z1 - z2 + u"};
+    const size_t n = sizeof component / sizeof *component;
+    int seen = 0;
+
+    (void)state;
+    for (size_t k = 0; k < n * n * n; k++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_expr e, other, at_sight;
+        qdot_facts facts = {.n_relations = 1, .relations = &other};
+        char text[128];
+
+        (void)text_read(pool, "x1 + y1 + z1 + x2 + y2 + z2 + u + k");
+        snprintf(text, sizeof text, "sqrt((%s)^2 + (%s)^2 + (%s)^2)", component[k % n], component[k / n % n],
+                 component[k / n / n]);
+        e = text_read(pool, text);
+        other = text_read(pool, "k");
+        at_sight = qdot_simple_seen(pool, e);
+        if (at_sight != QDOT_NIL) {
+            const qdot_expr full = qdot_simplify(pool, e, &facts);
+
+            seen++;
+            if (at_sight != full)
+                fail_msg("%s: seen as %s, is %s", text, text_write(pool, at_sight), text_write(pool, full));
+        }
+        qdot_pool_free(pool);
+    }
+    assert_int_equal(seen, 12);
+}
+
 static void
 long_sums_come_back_in_time(void **state)
 {
@@ -578,6 +612,7 @@ main(void)
         cmocka_unit_test(blocks_are_solved_apart),
         cmocka_unit_test(random_values_are_kept),
         cmocka_unit_test(sums_of_angles_are_seen),
+        cmocka_unit_test(distances_are_seen),
         cmocka_unit_test(long_sums_come_back_in_time),
         cmocka_unit_test(a_root_in_many_parts_is_simplified_once),
     };
