@@ -19,6 +19,7 @@
 #include "expr/tensor.h"
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/kinematics.h"
+#include "mech/dynamics/long-sum.h"
 #include "mech/dynamics/multiplier-forces.h"
 #include "mech/dynamics/potential.h"
 #include "mech/dynamics/ostrogradsky.h"
@@ -86,7 +87,7 @@ force_of_potential(qdot_scene *s, qdot_expr V, size_t i, bool kane)
     if (qdot_mech_holds(s, V) & QDOT_HAS_VELOCITY)
         return qdot_sub(pool, qdot_ddt(pool, qdot_diff(pool, V, v)),
                         qdot_diff(pool, V, s->coordinates.at[i]));
-    return qdot_neg(pool, partial_position(s, V, i, kane));
+    return qdot_neg(pool, partial_position(s, qdot_long_sum_with(s, V, i), i, kane));
 }
 
 static qdot_expr

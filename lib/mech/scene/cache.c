@@ -46,6 +46,9 @@ clear_results(qdot_derived *d)
     qdot_free(d->integral_known);
     qdot_free(d->independent);
     qdot_free(d->patterns.at);
+    for (size_t k = 0; k < d->divided.n; k++)
+        qdot_free(d->divided.at[k].part);
+    qdot_free(d->divided.at);
     qdot_free(d->cyclic);
 }
 

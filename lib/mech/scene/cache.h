@@ -62,6 +62,11 @@ typedef struct {
     qdot_expr momentum, rate;
 } qdot_cyclic_known;
 
+/* A long sum by coordinates (mech/dynamics/long-sum.h). */
+typedef struct {
+    qdot_expr sum, *part; /* the sum; [n] those terms of it that hold coordinate i */
+} qdot_divided_sum;
+
 struct qdot_derived {
     uint64_t newest;  /* the highest version number given to any state of the scene */
     uint64_t version; /* the version of the scene for which the results below hold */
@@ -74,6 +79,7 @@ struct qdot_derived {
     bool slopes_ready;
     qdot_vec(qdot_mass_slope) slopes; /* derivatives of entries of M that are not 0 */
     qdot_vec(qdot_pattern) patterns;
+    qdot_vec(qdot_divided_sum) divided;
     qdot_expr kinetic, potential, lagrangian, energy, mass_matrix;
     qdot_expr *momentum, *force, *rest, *left, *equation; /* [n] each: by coordinate */
     size_t n_speeds;  /* m */
