@@ -1,12 +1,13 @@
 /* reactions.c -- the statement `reactions`: lists the constraints' forces on each particle and body. */
-#include "expr/node.h"
 #include "mech/study/reactions.h"
 
+#include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
 #include "lang/session/history.h"
 #include "lang/session/output.h"
 #include "lang/syntax/record.h"
+#include "mech/scene/body-joint.h"
 
 static qdot_status carry_out_reactions(qdot_record *r);
 
@@ -53,6 +54,31 @@ print_reaction(qdot_sheet *sheet, const qdot_reaction *r)
     return qdot_sheet_formula(sheet, r->torque);
 }
 
+/* The force and the torque of each joint on its second body, where the multipliers tell them. */
+static qdot_status
+print_joints(qdot_sheet *sheet, size_t before)
+{
+    qdot_scene *scene = sheet->session->scene;
+
+    for (size_t i = 0; i < scene->joints.n; i++) {
+        const qdot_body_joint *joint = &scene->joints.at[i];
+        qdot_expr force, torque;
+        const qdot_status status = qdot_body_joint_reaction(scene, joint, &force, &torque);
+
+        if (status == QDOT_EINVAL)
+            continue;
+        QDOT_TRY(status);
+        qdot_sheet_format(sheet, "%s%s on %s: force ", before++ > 0 ? "\n" : "", joint->name,
+                          joint->end[1] != NULL ? joint->end[1] : "the ground");
+        QDOT_TRY(qdot_sheet_formula(sheet, force));
+        if (is_zero_reaction(sheet->session->pool, torque))
+            continue;
+        qdot_sheet_words(sheet, " at the joint, torque ");
+        QDOT_TRY(qdot_sheet_formula(sheet, torque));
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 carry_out_reactions(qdot_record *r)
 {
@@ -78,7 +104,9 @@ carry_out_reactions(qdot_record *r)
         qdot_sheet_words(&sheet, i > 0 ? "\n" : "");
         status = print_reaction(&sheet, &list[i]);
     }
-    if (n == 0)
+    if (status == QDOT_OK)
+        status = print_joints(&sheet, n);
+    if (n == 0 && session->scene->joints.n == 0)
         qdot_sheet_words(&sheet, "the constraints act on nothing");
     status = qdot_sheet_end(&sheet, "reactions", status);
     qdot_free(list);

@@ -4,6 +4,7 @@
 #include "expr/value-kind.h"
 #include "lang/functions/builtin.h"
 #include "lang/session/labels.h"
+#include "mech/scene/body-joint.h"
 #include "mech/scene/scene.h"
 #include "mech/study/bodies.h"
 
@@ -64,6 +65,51 @@ qdot_call_velocity(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
     QDOT_TRY(label_of(s, args[0], false, &label));
     return qdot_value_kind_give(s->pool, qdot_scene_velocity(s->scene, label, args[1]),
                                 value);
+}
+
+/* --- joints ----------------------------------------------------------------------------- */
+
+static qdot_status
+joint_of(qdot_session *s, qdot_expr carrier, const qdot_body_joint **joint)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(s->pool, carrier);
+    qdot_words known = {0};
+    qdot_status status;
+
+    if (symbol == NULL || symbol->class != QDOT_FORMAL)
+        return qdot_fail(QDOT_ETYPE, "the argument is the name of a joint");
+    *joint = qdot_scene_find_joint(s->scene, symbol->name);
+    if (*joint != NULL)
+        return QDOT_OK;
+    for (size_t i = 0; i < s->scene->joints.n; i++)
+        (void)qdot_vec_push(&known, s->scene->joints.at[i].name); /* if memory runs out the hint lacks this name */
+    (void)qdot_fail(QDOT_ENAME, "there is no joint `%.200s`", symbol->name);
+    status = known.n > 0 ? qdot_labels_hint(symbol->name, &known)
+                         : qdot_hint("joint hinge %.60s between ground, BODY at P", symbol->name);
+    qdot_free(known.at);
+    return status;
+}
+
+qdot_status
+qdot_call_reaction(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    const qdot_body_joint *joint;
+    qdot_expr torque;
+
+    (void)n;
+    QDOT_TRY(joint_of(s, args[0], &joint));
+    return qdot_body_joint_reaction(s->scene, joint, value, &torque);
+}
+
+qdot_status
+qdot_call_reaction_torque(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
+{
+    const qdot_body_joint *joint;
+    qdot_expr force;
+
+    (void)n;
+    QDOT_TRY(joint_of(s, args[0], &joint));
+    return qdot_body_joint_reaction(s->scene, joint, &force, value);
 }
 
 /* --- momenta, inertia, energy ------------------------------------------------------------ */

@@ -40,8 +40,8 @@ qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi)
     return qdot_value_mul(pool, R, rotation_about_axis(pool, psi, 2));
 }
 
-static qdot_expr
-rotation_in_plane(qdot_pool *pool, qdot_expr angle)
+qdot_expr
+qdot_body_rotation_in_plane(qdot_pool *pool, qdot_expr angle)
 {
     qdot_expr c = qdot_fun1(pool, QDOT_COS, angle), s = qdot_fun1(pool, QDOT_SIN, angle);
     qdot_expr e[4] = {c, qdot_neg(pool, s), s, c};
@@ -171,7 +171,7 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
     QDOT_TRY(convert_inertia(s, mass, inertia, about, plane, &b.inertia));
     QDOT_TRY(check_moments(s, b.inertia, about != QDOT_NIL));
     if (plane)
-        b.rotation = rotation_in_plane(pool, angle);
+        b.rotation = qdot_body_rotation_in_plane(pool, angle);
     QDOT_TRY(qdot_pool_check(pool));
     if (!plane)
         QDOT_TRY(qdot_rotation_check(s, rotation));

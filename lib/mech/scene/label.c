@@ -68,7 +68,8 @@ qdot_scene_has_label(const qdot_scene *s, const char *label)
         return true;
     return HAS(gravities, name) || HAS(potentials, name) || HAS(dissipations, name) ||
            HAS(springs, name) || HAS(dampers, name) || HAS(forces, name) ||
-           HAS(torques, name) || HAS(constraints, label) || HAS(events, name);
+           HAS(torques, name) || HAS(constraints, label) || HAS(joints, name) ||
+           HAS(events, name);
 }
 
 uint32_t

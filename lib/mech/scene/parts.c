@@ -10,7 +10,7 @@ qdot_scene_part_at(qdot_scene *s, size_t k)
         PART(s->gravities),  PART(s->potentials),  PART(s->springs),      PART(s->dampers),
         PART(s->dissipations), PART(s->forces),    PART(s->torques),      PART(s->constraints),
         PART(s->assumed),    PART(s->conditions),  PART(s->relations),  PART(s->states),
-        PART(s->inputs),     PART(s->outputs),     PART(s->higher),
+        PART(s->inputs),     PART(s->outputs),     PART(s->higher),      PART(s->joints),
     };
 #undef PART
 

@@ -6,6 +6,7 @@
 #include "expr/print.h"
 #include "expr/symbol.h"
 #include "mech/scene/access.h"
+#include "mech/scene/body-joint.h"
 #include "mech/scene/scene.h"
 
 static qdot_status
@@ -173,10 +174,15 @@ static qdot_status
 print_constraints(const qdot_scene *s, qdot_text *out)
 {
     const qdot_constraint *c = s->constraints.at;
+    const qdot_body_joint *joint;
 
     for (size_t i = 0, j; i < s->constraints.n; i = j) {
         for (j = i + 1; j < s->constraints.n && together(&c[j - 1], &c[j]); j++)
             ;
+        if ((joint = qdot_scene_find_joint(s, c[i].label)) != NULL) {
+            QDOT_TRY(qdot_body_joint_print(s, joint, out));
+            continue;
+        }
         qdot_text_add(out, "constraint ");
         if (c[i].label)
             qdot_text_format(out, "%s: ", c[i].label);

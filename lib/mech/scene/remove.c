@@ -5,6 +5,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"
+#include "mech/scene/body-joint.h"
 #include "mech/scene/scene.h"
 
 qdot_status
@@ -31,6 +32,21 @@ static bool
 is_attached_to(const qdot_link *link, const char *label)
 {
     return qdot_label_is(link->end[0], label) || qdot_label_is(link->end[1], label);
+}
+
+static bool
+is_joined_to(const qdot_body_joint *joint, const char *label)
+{
+    return qdot_label_is(joint->end[0], label) || qdot_label_is(joint->end[1], label);
+}
+
+/* Whether the constraint is one of a joint of the body with that label. */
+static bool
+is_of_joint_of(const qdot_scene *s, const qdot_constraint *c, const char *label)
+{
+    const qdot_body_joint *joint = qdot_scene_find_joint(s, c->label);
+
+    return joint && is_joined_to(joint, label);
 }
 
 /* Whether a torque acts on the body with the given index (-1: none). */
@@ -74,6 +90,7 @@ record_dependents(qdot_scene *s, const char *label, int body)
     DROP(s->dampers, "damper", p, is_attached_to(p, label));
     DROP(s->forces, "force", p, qdot_label_is(p->on, label));
     DROP(s->torques, "torque", p, acts_on_body(p, body));
+    DROP(s->joints, "joint", p, is_joined_to(p, label));
     return QDOT_OK;
 }
 
@@ -82,12 +99,18 @@ qdot_scene_remove(qdot_scene *s, const char *label)
 {
     const qdot_body *b = qdot_scene_find_body(s, label);
     int body = b ? (int)(b - s->bodies.at) : -1;
+    const qdot_body_joint *joint;
     bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
 
     qdot_scene_forget_dropped(s);
     if (qdot_scene_find_event(s, label)) { /* events do not affect the mechanics: removing one leaves derived results valid */
         FILTER(s->events, p, qdot_label_is(p->name, label));
         return found ? QDOT_OK : QDOT_EFAILED;
+    }
+    joint = qdot_scene_find_joint(s, label);
+    if (joint && joint->places) {
+        qdot_fail(QDOT_EINVAL, "joint %s has placed %s, which keeps its place", label, joint->end[1]);
+        return qdot_hint("`remove %.60s` takes the body with it; `undo` takes back the statements since", joint->end[1]);
     }
     if (!qdot_scene_has_label(s, label))
         return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
@@ -104,7 +127,8 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     FILTER(s->gravities, p, qdot_label_is(p->name, label));
     FILTER(s->potentials, p, qdot_label_is(p->name, label));
     FILTER(s->dissipations, p, qdot_label_is(p->name, label));
-    FILTER(s->constraints, p, qdot_label_is(p->label, label));
+    FILTER(s->constraints, p, qdot_label_is(p->label, label) || (body >= 0 && is_of_joint_of(s, p, label)));
+    FILTER(s->joints, p, qdot_label_is(p->name, label) || (body >= 0 && is_joined_to(p, label)));
     qdot_scene_changed(s);
     return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
 }

@@ -51,6 +51,11 @@ map_all_expressions(qdot_scene *s, mapping m)
     MAP(constraints, .f);
     MAP(constraints, .left);
     MAP(constraints, .right);
+    for (int k = 0; k < 2; k++) {
+        MAP(joints, .place[k]);
+        MAP(joints, .axis[k]);
+    }
+    MAP(joints, .pitch);
     MAP(gravities, .e);
     MAP(potentials, .e);
     MAP(dissipations, .e);

@@ -86,6 +86,7 @@ qdot_scene_free(qdot_scene *s)
     qdot_free(s->forces.at);
     qdot_free(s->torques.at);
     qdot_free(s->constraints.at);
+    qdot_free(s->joints.at);
     qdot_free(s->assumed.at);
     qdot_free(s->conditions.at);
     qdot_free(s->relations.at);

@@ -112,7 +112,7 @@ void qdot_scene_changed(qdot_scene *s);
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
  * byte. With `lagrangian`, `higher_lagrangian` and `hamiltonian` they are the state of a scene: a copy of all can be put back, with the
  * `version` that the scene had then. */
-enum { QDOT_SCENE_PARTS = 19 };
+enum { QDOT_SCENE_PARTS = 20 };
 typedef struct {
     void *at;            /* address of the pointer to the array's first item */
     size_t *n, *capacity, size;

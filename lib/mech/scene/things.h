@@ -72,6 +72,19 @@ typedef struct {
     qdot_expr unused;
 } qdot_constraint;
 
+/* A joint between two bodies (mech/scene/body-joint.h). */
+typedef struct {
+    char *name;
+    char *end[2];       /* labels of the bodies A and B; NULL: the ground */
+    qdot_expr place[2]; /* in space, in the reference configuration, and nil; or in A's axes and in B's. Rolling: the contact,
+                           in space, as it moves */
+    qdot_expr axis[2];  /* as the places; nil: none */
+    qdot_expr pitch;    /* of a screw, the advance with each turn; nil: none */
+    qdot_expr coordinate[3]; /* the coordinates that it names, angles, then lengths; nil: no more */
+    int kind;           /* index of its row of mech/scene/body-joint.def */
+    int places;         /* 1: it has placed B, by its coordinates, and has no constraints; 0: it has */
+} qdot_body_joint;
+
 /* A constraint whose multiplier is solved for in the forces of the scene: the motion keeps it by itself from a start that
  * fulfils it. */
 typedef struct {
@@ -131,6 +144,7 @@ typedef struct qdot_scene {
     qdot_vec(qdot_force) forces;
     qdot_vec(qdot_torque) torques;
     qdot_vec(qdot_constraint) constraints;
+    qdot_vec(qdot_body_joint) joints; /* their constraints are among `constraints`, with the name of the joint as label */
     qdot_vec(qdot_eliminated) eliminated; /* [i] belongs to constraints.at[i], and constraints.n is 0: phase space alone (mech/hamilton) */
     qdot_vec(qdot_state) states;
     qdot_vec(qdot_higher) higher;
