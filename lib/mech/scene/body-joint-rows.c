@@ -60,30 +60,40 @@ pose_of(qdot_scene *s, const qdot_joint_frames *x, int i)
     return (pose){qdot_vector(pool, x->dim, zero), qdot_matrix(pool, x->dim, x->dim, one)};
 }
 
-/* The component of an axis that is known not to be 0, the greatest of numbers; dim: none is. */
+/* The axis e_k of which u is known not to be a multiple; dim: none is. */
 static uint32_t
-component_not_zero(const qdot_pool *pool, qdot_expr u, uint32_t dim)
+axis_aside(const qdot_pool *pool, qdot_expr u, uint32_t dim)
 {
-    uint32_t found = dim;
-
-    for (uint32_t k = dim; k-- > 0;)
-        if (qdot_expr_sign(pool, qdot_expr_arg(pool, u, k)) & QDOT_NE0)
-            found = k;
-    return found;
+    for (uint32_t k = 0; k < dim; k++)
+        if (qdot_expr_arg(pool, u, k) == QDOT_ZERO)
+            return k;
+    for (uint32_t k = 0; k < dim; k++)
+        if (qdot_expr_sign(pool, qdot_expr_arg(pool, u, (k + 1) % dim)) & QDOT_NE0)
+            return k;
+    return dim;
 }
 
-/* Two vectors v, w at right angles to u and to each other; in the plane v alone. */
+/* The number of the only component of u that is not 0; dim: there are more. */
+static uint32_t
+axis_along(const qdot_pool *pool, qdot_expr u, uint32_t dim)
+{
+    uint32_t found = dim, others = 0;
+
+    for (uint32_t k = 0; k < dim; k++)
+        if (qdot_expr_arg(pool, u, k) != QDOT_ZERO) {
+            found = k;
+            others++;
+        }
+    return others == 1 ? found : dim;
+}
+
+/* Two vectors v, w at right angles to u and to each other; in the plane v alone, and w nil. */
 static qdot_status
 complete_axes(qdot_scene *s, qdot_expr u, qdot_expr *v, qdot_expr *w)
 {
     qdot_pool *pool = s->pool;
-    const uint32_t dim = qdot_mech_dimension(pool, u), j = component_not_zero(pool, u, dim);
-    uint32_t k = (j + 1) % dim;
+    const uint32_t dim = qdot_mech_dimension(pool, u), along = axis_along(pool, u, dim), k = axis_aside(pool, u, dim);
 
-    if (j == dim) {
-        qdot_fail(QDOT_EINVAL, "no component of the axis is known to differ from 0");
-        return qdot_hint("`param a > 0` or `assume a > 0` says that a is not 0");
-    }
     if (dim == 2) {
         qdot_expr e[2] = {qdot_neg(pool, qdot_expr_arg(pool, u, 1)), qdot_expr_arg(pool, u, 0)};
 
@@ -91,15 +101,17 @@ complete_axes(qdot_scene *s, qdot_expr u, qdot_expr *v, qdot_expr *w)
         *w = QDOT_NIL;
         return qdot_pool_check(pool);
     }
-    if (qdot_expr_arg(pool, u, k) != QDOT_ZERO && qdot_expr_arg(pool, u, 3 - j - k) == QDOT_ZERO)
-        k = 3 - j - k;
-    /* u x e_k has the component +-u_j: it is not 0 */
+    if (along < dim) {
+        *v = unit_vector(pool, 3, (along + 1) % 3);
+        *w = unit_vector(pool, 3, (along + 2) % 3);
+        return qdot_pool_check(pool);
+    }
+    if (k == dim) {
+        qdot_fail(QDOT_EINVAL, "no component of the axis is known to differ from 0");
+        return qdot_hint("`param a > 0` or `assume a > 0` says that a is not 0");
+    }
     *v = qdot_cross(pool, u, unit_vector(pool, 3, k));
     *w = qdot_cross(pool, u, *v);
-    if (qdot_expr_arg(pool, u, (j + 1) % 3) == QDOT_ZERO && qdot_expr_arg(pool, u, (j + 2) % 3) == QDOT_ZERO) {
-        *v = unit_vector(pool, 3, (j + 1) % 3);
-        *w = unit_vector(pool, 3, (j + 2) % 3);
-    }
     return qdot_pool_check(pool);
 }
 
@@ -122,24 +134,31 @@ find_joint_places(qdot_scene *s, const qdot_body_joint *joint, const pose at[2],
                           : in_axes(s, at[i].rotation, qdot_value_sub(pool, joint->place[0], at[i].position));
 }
 
+/* A vector that is given as the axes of the joint are, in the axes of body i. */
+static qdot_expr
+given_in_axes(qdot_scene *s, const qdot_body_joint *joint, const pose at[2], int i, qdot_expr vector)
+{
+    return joint->place[1] != QDOT_NIL || vector == QDOT_NIL ? vector : in_axes(s, at[i].rotation, vector);
+}
+
 static qdot_status
 find_axes(qdot_scene *s, const qdot_body_joint *joint, const pose at[2], qdot_joint_frames *x)
 {
-    const bool in_bodies = joint->place[1] != QDOT_NIL;
     qdot_pool *pool = s->pool;
     const qdot_expr to_B = qdot_transpose(pool, x->attitude);
+    const qdot_expr u = joint->axis[0] == QDOT_NIL ? unit_vector(pool, x->dim, 0) : joint->axis[0];
 
-    x->u[0] = joint->axis[0] == QDOT_NIL ? unit_vector(pool, x->dim, 0)
-              : in_bodies                ? joint->axis[0]
-                                         : in_axes(s, at[0].rotation, joint->axis[0]);
+    x->u[0] = given_in_axes(s, joint, at, 0, u);
     if (qdot_joint_kinds[joint->kind].axes == 2) { /* u of A, and v of B, at right angles to it */
-        x->v[1] = in_bodies ? joint->axis[1] : in_axes(s, at[1].rotation, joint->axis[1]);
+        x->v[1] = given_in_axes(s, joint, at, 1, joint->axis[1]);
         x->v[0] = tidy(s, qdot_value_mul(pool, x->attitude, x->v[1]));
-        if ((!in_bodies || joint->coordinate[0] != QDOT_NIL) && tidy(s, qdot_dot(pool, x->u[0], x->v[0])) != QDOT_ZERO)
+        if ((joint->place[1] == QDOT_NIL || joint->coordinate[0] != QDOT_NIL) && tidy(s, qdot_dot(pool, x->u[0], x->v[0])) != QDOT_ZERO)
             return qdot_fail(QDOT_EINVAL, "the axes of a universal joint are at right angles where all coordinates are 0");
         x->w[0] = qdot_cross(pool, x->u[0], x->v[0]);
     } else {
-        QDOT_TRY(complete_axes(s, x->u[0], &x->v[0], &x->w[0]));
+        QDOT_TRY(complete_axes(s, u, &x->v[0], &x->w[0]));
+        x->v[0] = given_in_axes(s, joint, at, 0, x->v[0]);
+        x->w[0] = given_in_axes(s, joint, at, 0, x->w[0]);
         x->v[1] = tidy(s, qdot_value_mul(pool, to_B, x->v[0]));
     }
     x->u[1] = tidy(s, qdot_value_mul(pool, to_B, x->u[0]));
