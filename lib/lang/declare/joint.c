@@ -98,6 +98,8 @@ read_coordinates(qdot_record *r, const char *word, const char *hole, size_t most
             return most == 0 ? qdot_fail(QDOT_EINVAL, "this joint has no %s that it could name", word)
                              : qdot_fail(QDOT_EINVAL, "this joint has %zu %s%s", most, word, most == 1 ? "" : "s");
         QDOT_TRY(qdot_record_name(r, part, &x.name));
+        if (strcmp(x.name, "t") == 0)
+            return qdot_fail(QDOT_ENAME, "`t` is the time: it is no coordinate of a joint");
         old = qdot_names_find(names, x.name);
         for (size_t i = 0; i < fresh->n; i++)
             if (strcmp(fresh->at[i].name, x.name) == 0)

@@ -65,6 +65,8 @@ check_second_body(qdot_scene *s, const qdot_body_joint *j, const qdot_body *b)
         qdot_fail(QDOT_EINVAL, "%s moves by coordinates already, so joint %s cannot place it", b->name, j->name);
         return qdot_hint("without its coordinate the joint becomes constraints");
     }
+    for (int k = 0; k < 3 && j->coordinate[k] != QDOT_NIL; k++)
+        QDOT_TRY(qdot_scene_refuse_states(s, j->coordinate[k], "the coordinate of a joint", 0));
     if (!is_used(s, b->name))
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "what was declared before stands where %s is now, but joint %s moves it", b->name, j->name);
