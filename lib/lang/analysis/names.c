@@ -79,14 +79,28 @@ declares_list(const qdot_statement *row, qdot_role *role)
 static const qdot_token *
 label_of(const search *s, const qdot_token *first, const qdot_token *end)
 {
+    const qdot_token *label = first + (qdot_token_is_word(first, "joint") ? 2 : 1); /* behind the kind of the joint */
     bool thing = qdot_token_is_word(first, "particle") || qdot_token_is_word(first, "body");
     const qdot_token *behind;
 
-    if (first + 1 >= end || !is_name(s, first + 1))
+    if (label >= end || !is_name(s, label))
         return NULL;
-    behind = qdot_token_behind_index(first + 1);
+    behind = qdot_token_behind_index(label);
     thing = thing || (behind < end && qdot_token_is_word(behind, "between"));
-    return thing || (behind < end && qdot_token_is(behind, ":")) ? first + 1 : NULL;
+    return thing || (behind < end && qdot_token_is(behind, ":")) ? label : NULL;
+}
+
+/* Whether the name at k is one of the coordinates that the joint [first, end) names: `angle a, b`, `length s`. */
+static bool
+is_coordinate_of_joint(const search *s, const qdot_token *first, const qdot_token *k)
+{
+    const qdot_token *word = k;
+    int depth = 0;
+
+    while (word > first && !(depth == 0 && is_word(s, word)))
+        depth -= qdot_token_bracket(word--);
+    return word > first && (qdot_token_is_word(word, "angle") || qdot_token_is_word(word, "length")) &&
+           (k == word + 1 || qdot_token_is(k - 1, ","));
 }
 
 /* Whether the name at k is declared by the statement [first, end). */
@@ -110,6 +124,10 @@ is_declared_at(const search *s, const qdot_token *first, const qdot_token *end, 
     }
     if (k == first + 1 && qdot_token_is_word(first, "data")) {
         *role = QDOT_ROLE_FUNCTION;
+        return true;
+    }
+    if (qdot_token_is_word(first, "joint") && is_coordinate_of_joint(s, first, k)) {
+        *role = QDOT_ROLE_COORDINATE;
         return true;
     }
     if (!declares_list(row, role)) {

@@ -210,7 +210,7 @@ kind_of(const qdot_record *r)
 
 /* Say which parts the bodies fulfil by themselves; which point a place is that was given once. */
 static qdot_status
-give_notices(qdot_session *session, const qdot_body_joint *joint)
+give_joint_notices(qdot_session *session, const qdot_body_joint *joint)
 {
     const size_t left_out = session->scene->dropped.n;
 
@@ -250,5 +250,5 @@ declare_joint(qdot_record *r)
         QDOT_TRY(qdot_record_scalar(r, pitch, &joint.pitch));
     QDOT_TRY(add_joint(r, &joint));
     QDOT_TRY(give_dimensions(session, &joint));
-    return give_notices(session, &joint);
+    return give_joint_notices(session, &joint);
 }

@@ -180,6 +180,11 @@ names_are_renamed(void **state)
             "coord z\nprint integral(z^2, z)\nprint z^2 for z = 1..2\nsum(x, x, 1, 2)\nreset\n");
     renamed(*state, "print integral(u^2, u)\nparam m\n", 21, "v", "print integral(v^2, v)\nparam m\n");
     renamed(*state, "param L > 0 [m]\nparam m\n", 22, "mass1", "param L > 0 [m]\nparam mass1\n");
+    renamed(*state, "body rod mass 1 inertia 1 at (0, 0) angle 0\njoint hinge J between ground, rod at (0, 0) angle th\nth'\n", 94, "ph",
+            "body rod mass 1 inertia 1 at (0, 0) angle 0\njoint hinge J between ground, rod at (0, 0) angle ph\nph'\n");
+    renamed(*state, "coord x, y, a\nbody rod mass 1 inertia 1 at (x, y) angle a\njoint hinge J between ground, rod at (0, 0)\nreaction(J)\nlambda[J, 1]\n",
+            70, "pin",
+            "coord x, y, a\nbody rod mass 1 inertia 1 at (x, y) angle a\njoint hinge pin between ground, rod at (0, 0)\nreaction(pin)\nlambda[pin, 1]\n");
 }
 
 static void
