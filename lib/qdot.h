@@ -346,7 +346,8 @@ qdot_result qdot_motion_end(const qdot_motion *motion, size_t n, double *q, doub
  *   values  [n][k] row by row
  *   errors  [n][k], estimated, absolute; NaN: unknown; NULL: not wanted
  *
- * Parameters have the values of the run. TYPE: the expression has not k components. DOMAIN: a time
+ * Parameters have the values of the run. A quantity of the scene, such as energy, is that of the scene as it is now:
+ * if that has changed since the run was made, qdot_system_notices() says so. TYPE: the expression has not k components. DOMAIN: a time
  * outside the motion. NAME: the run is no longer in the system, because of `reset`, `remove` or a later
  * run of its name. */
 qdot_result qdot_motion_values(qdot_motion *motion, const char *expression, size_t n,

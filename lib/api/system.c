@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "lang/answer/answer.h"
 #include "lang/language/read.h"
+#include "lang/session/evaluation.h"
 #include "lang/session/outcome.h"
 #include "lang/session/output.h"
 #include "lang/session/session.h"
@@ -249,6 +250,7 @@ reset_after_call(qdot_session *session)
 {
     session->output->out = session->output->err = session->output->console = NULL;
     session->outcome->quit = session->outcome->refuted = session->outcome->failed = false;
+    qdot_text_list_clear(&session->evaluation->told); /* a call that is no statement gives its notices each time */
 }
 
 qdot_result

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "lang/language/outdated.h"
 #include "lang/language/read.h"
 #include "lang/session/member.h"
 #include "lang/session/runs.h"
@@ -26,14 +27,16 @@ check_session_has_run(const qdot_motion *motion)
 
 /* Read the expression in the text into columns of values, one column for each of its k components. */
 static qdot_status
-read_value_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
+read_value_columns(qdot_cursor *c, const char *run, size_t k, qdot_runs_columns *columns)
 {
-    const size_t start = c->at->start;
+    const qdot_token *from = c->at;
+    const size_t start = from->start;
     qdot_expr value;
 
     QDOT_TRY(qdot_read_value(c, &value));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start;
+    QDOT_TRY(qdot_outdated_notice(c->session, run, from, c->at));
     QDOT_TRY(qdot_runs_flatten(c->session, value, columns));
     for (size_t i = 0; i < columns->n; i++)
         if (qdot_member_any(c->session, columns->at[i]))
@@ -127,7 +130,7 @@ read_and_evaluate(qdot_cursor *c, void *data)
 {
     const samples *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = read_value_columns(c, s->k, &columns);
+    qdot_status status = read_value_columns(c, s->motion->run.name, s->k, &columns);
 
     if (status == QDOT_OK && s->n > 0)
         status = evaluate(s, columns.at);
@@ -170,7 +173,7 @@ read_range_expression(qdot_cursor *c, void *data)
 {
     stretch *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = read_value_columns(c, 1, &columns);
+    qdot_status status = read_value_columns(c, s->motion->run.name, 1, &columns);
 
     if (status == QDOT_OK)
         status = qdot_run_range(s->motion->run.run, s->kind, columns.at[0], s->from, s->to,

@@ -327,6 +327,28 @@ errors_name_the_source_of_a_text(void **state)
     assert_int_equal(qdot_system_declare(s, "undo"), QDOT_RESULT_INVALID);
 }
 
+/* energy along a motion made before the scene changed is not what it was. */
+static void
+a_changed_scene_is_noticed_along_a_motion(void **state)
+{
+    static const double one = 1;
+    qdot_system *s = *state;
+    qdot_motion *m;
+    double x;
+
+    assert_int_equal(qdot_system_run(s, "0..2", &m), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(m, "energy", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
+    assert_string_equal(qdot_system_notices(s), "");
+    assert_int_equal(qdot_system_declare(s, "potential theta^2"), QDOT_RESULT_OK);
+    assert_int_equal(qdot_motion_values(m, "theta", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
+    assert_string_equal(qdot_system_notices(s), "");
+    assert_int_equal(qdot_motion_values(m, "energy", 1, &one, 1, &x, NULL), QDOT_RESULT_OK);
+    assert_non_null(strstr(qdot_system_notices(s), "energy is that of the scene as it is now"));
+    assert_int_equal(qdot_motion_over(m, QDOT_OVER_DRIFT, "energy", 0, 1, &x, NULL), QDOT_RESULT_OK);
+    assert_non_null(strstr(qdot_system_notices(s), "energy is that of the scene as it is now"));
+    qdot_motion_free(m);
+}
+
 static void
 undo_reaches_back_over_calls_where_it_is_kept(void **state)
 {
@@ -593,6 +615,7 @@ main(void)
         IN_A_SCENE(answers_and_notices_are_apart),
         IN_A_SCENE(interrupted_work_says_so),
         IN_A_SCENE(errors_name_the_source_of_a_text),
+        IN_A_SCENE(a_changed_scene_is_noticed_along_a_motion),
         IN_A_SCENE(undo_reaches_back_over_calls_where_it_is_kept),
         cmocka_unit_test(failing_memory_is_reported),
         cmocka_unit_test(systems_of_two_threads_do_not_meet),

@@ -3,6 +3,7 @@
 
 #include "expr/node.h"
 #include "expr/walk.h"
+#include "lang/language/outdated.h"
 #include "lang/language/token-text.h"
 #include "lang/session/member.h"
 
@@ -48,6 +49,8 @@ qdot_operand_find(qdot_record *r, const qdot_filled *part, size_t k, qdot_operan
     QDOT_TRY(qdot_compiled_member(c, program, &e, &run));
     c->error_at = program->from->start;
     o->session = c->session;
+    o->from = program->from;
+    o->to = program->to;
     QDOT_TRY(find_run_of_operand(o, &run, &e));
     if (run != NULL)
         QDOT_TRY(qdot_runs_read(c->session, run, &named));
@@ -89,6 +92,7 @@ qdot_operands_find_runs(qdot_session *session, qdot_operands *list)
         if (list->at[i].run != NULL)
             continue;
         QDOT_TRY(qdot_runs_read(session, NULL, &latest));
+        QDOT_TRY(qdot_outdated_notice(session, NULL, list->at[i].from, list->at[i].to));
         list->at[i].run = latest->run;
     }
     return QDOT_OK;

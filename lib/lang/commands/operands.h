@@ -9,6 +9,7 @@ typedef struct {
     char *label;               /* the expression as typed; owned */
     qdot_session *session;
     qdot_run *run;             /* the run along which to evaluate; NULL: the latest */
+    const qdot_token *from, *to; /* its tokens from .. to - 1 */
     bool mixed;                /* the expression combines several runs; `run` is the first */
     bool vector;               /* the expression is a vector: the path of a point */
     qdot_runs_columns columns; /* the components of the expression, one column for each */

@@ -15,6 +15,7 @@
 #include "lang/language/condition.h"
 #include "lang/language/forms.h"
 #include "lang/language/hints.h"
+#include "lang/language/outdated.h"
 #include "lang/language/partial-sum.h"
 #include "lang/language/units.h"
 #include "lang/session/bind.h"
@@ -205,8 +206,10 @@ evaluate_range_function(qdot_machine *m, const qdot_postfix *code)
     const char *run = NULL;
     qdot_expr value;
 
-    if (along)
+    if (along) {
         QDOT_TRY(find_run_to_read(m, code, code->n, &run));
+        QDOT_TRY(qdot_outdated_notice_call(m->session, run, code->token));
+    }
     QDOT_TRY(qdot_machine_take(m, code->n));
     if (along)
         QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
@@ -252,10 +255,13 @@ evaluate_call(qdot_machine *m, const qdot_postfix *code)
     const char *run = NULL;
     qdot_expr value, first, over = QDOT_NIL;
 
-    if (reads_arguments_along_run(m, code))
+    if (reads_arguments_along_run(m, code)) {
         QDOT_TRY(find_run_to_read(m, code, n, &run));
-    else if (is_extremum(m, code))
+        QDOT_TRY(qdot_outdated_notice_call(m->session, run, code->token));
+    } else if (is_extremum(m, code)) {
         QDOT_TRY(put_run_on_argument(m, code));
+        QDOT_TRY(qdot_outdated_notice_call(m->session, qdot_machine_top(m, 1)->run, code->token));
+    }
     m->labels.n = 0;
     QDOT_TRY(qdot_grow(&m->labels.at, &m->labels.capacity, n, sizeof *m->labels.at));
     for (size_t i = n; i > 0; i--)
@@ -405,13 +411,14 @@ push_earlier_answer(qdot_machine *m, uint32_t n)
 }
 
 static qdot_status
-member(qdot_machine *m, const char *run)
+member(qdot_machine *m, const qdot_token *token)
 {
+    QDOT_TRY(qdot_outdated_notice_member(m->session, token));
     if (m->belongs) {
         m->belongs = false;
         return QDOT_OK;
     }
-    return mark_along_run(m, run);
+    return mark_along_run(m, token->text);
 }
 
 /* --- running a program -------------------------------------------------------------- */
@@ -473,7 +480,7 @@ execute_instruction(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         QDOT_TRY(qdot_machine_take(m, code->n));
         return qdot_machine_push(
             m, qdot_matrix(m->pool, code->n / code->to, code->to, m->args.at));
-    case QDOT_POSTFIX_MEMBER: return member(m, code->token->text);
+    case QDOT_POSTFIX_MEMBER: return member(m, code->token);
     case QDOT_POSTFIX_JUMP: *pc = code->to; return QDOT_OK;
     case QDOT_POSTFIX_SUM_BEGIN: return qdot_forms_sum(m, code, pc);
     case QDOT_POSTFIX_SUM_NEXT: return qdot_forms_sum_next(m, pc);

@@ -30,6 +30,7 @@ typedef struct qdot_evaluation {
     unsigned calls;    /* depth of nested function calls */
     bool placed;       /* the error message already names a place in a function's definition */
     qdot_vec(qdot_held) held; /* parameters and coordinates set by open loops, innermost last */
+    uint64_t declared;            /* version of the scene without the values of loops, while these stand in it; 0: they do not */
     unsigned phase_depth;         /* open statements that see the phase space of a stated H (lang/session/phase) */
     qdot_phase_space phase_space;
     size_t loops;      /* number of open loops, whose sources must be kept */

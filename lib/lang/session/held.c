@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
+#include "lang/session/phase.h"
 #include "lang/session/units.h"
 #include "lang/session/values.h"
 
@@ -108,6 +109,7 @@ qdot_status
 qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept)
 {
     QDOT_TRY(qdot_scene_save(session->scene, kept));
+    session->evaluation->declared = qdot_phase_version(session);
     return qdot_scene_map(session->scene, insert_loop_values, session);
 }
 
@@ -115,4 +117,13 @@ void
 qdot_held_scene_end(qdot_session *session, qdot_scene_saved *kept)
 {
     qdot_scene_restore(session->scene, kept);
+    session->evaluation->declared = 0;
+}
+
+uint64_t
+qdot_held_version(const qdot_session *session)
+{
+    const uint64_t declared = session->evaluation->declared;
+
+    return declared != 0 ? declared : qdot_phase_version(session);
 }

@@ -32,5 +32,7 @@ QDOT_MUST_CHECK qdot_status qdot_held_check(qdot_session *session);
  * which restores the scene. */
 QDOT_MUST_CHECK qdot_status qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept);
 void qdot_held_scene_end(qdot_session *session, qdot_scene_saved *kept);
+/* The version of the scene as it was declared: without values of loops in it, and outside its phase space. */
+uint64_t qdot_held_version(const qdot_session *session);
 
 #endif

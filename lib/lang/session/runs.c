@@ -10,6 +10,7 @@
 #include "expr/symbol.h"
 #include "lang/session/bind.h"
 #include "lang/session/evaluation.h"
+#include "lang/session/held.h"
 #include "lang/session/labels.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
@@ -57,6 +58,7 @@ qdot_runs_keep(qdot_session *session, const char *name, const char *text,
     qdot_named_run named = {.name = qdot_strdup(name),
                             .text = qdot_strdup(text),
                             .run = run,
+                            .version = qdot_held_version(session),
                             .conditions = qdot_calloc(1, sizeof *named.conditions),
                             .uses = qdot_malloc(sizeof *named.uses)};
     const size_t old = qdot_runs_index(session, name);

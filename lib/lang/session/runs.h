@@ -12,6 +12,7 @@ typedef struct {
     char *name; /* name of the run: "a", "run1" */
     char *text; /* the statement without the name: "run 0..20 tol 1e-9" */
     qdot_run *run;
+    uint64_t version; /* version of the scene as declared when the run was made */
     qdot_conditions *conditions; /* values under which the run was made; NULL: not recorded */
     unsigned *uses;
 } qdot_named_run;

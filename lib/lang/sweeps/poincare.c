@@ -7,6 +7,7 @@
 #include "expr/node.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
+#include "lang/language/outdated.h"
 #include "lang/runs/run.h"
 #include "lang/session/measured.h"
 #include "lang/session/momenta.h"
@@ -375,14 +376,16 @@ give_notice_of_time_limits(qdot_session *session, const poincare *p, const qdot_
 }
 
 static qdot_status
-make_section_of_run(qdot_cursor *c, poincare *p)
+make_section_of_run(qdot_record *r, poincare *p)
 {
+    qdot_cursor *c = &r->cursor;
     qdot_named_run *run;
 
     if (p->run_at != NULL)
         QDOT_TRY(qdot_run_carry_out(c, p->run_at, &p->run));
     QDOT_TRY(qdot_runs_find(c->session, NULL, &run));
     QDOT_TRY(give_notice_of_time_limits(c->session, p, run->run));
+    QDOT_TRY(qdot_outdated_notice(c->session, NULL, r->start, r->parts.at[r->parts.n - 1].to));
     QDOT_TRY(make_table(c->session, p));
     return find_points(c, p, run->run, NULL);
 }
@@ -397,7 +400,7 @@ carry_out_poincare(qdot_record *r)
 
     if (status == QDOT_OK) {
         c->error_at = r->start->start;
-        status = p.sweep != NULL ? make_section_of_sweep(c, &p, &interrupted) : make_section_of_run(c, &p);
+        status = p.sweep != NULL ? make_section_of_sweep(c, &p, &interrupted) : make_section_of_run(r, &p);
     }
     if (status == QDOT_OK) {
         qdot_row_table *table = p.table;
