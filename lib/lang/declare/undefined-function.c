@@ -4,6 +4,7 @@
 #include "expr/build.h"
 #include "expr/calculus.h"
 #include "expr/node.h"
+#include "expr/pool.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "lang/declare/declare.h"
@@ -161,6 +162,8 @@ qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr s
     qdot_status status = QDOT_OK;
     const qdot_name *one;
 
+    if (session->pool->ufuns.n == 0)
+        return QDOT_OK;
     for (size_t i = 0;
          status == QDOT_OK && (one = qdot_names_at(session->names, i)) != NULL; i++)
         if (one->kind == QDOT_NAME_UFUN &&

@@ -11,6 +11,17 @@
  * "...". */
 enum { SHOWN = 90, LEAST_SHOWN = 10, BESIDE = 8 };
 
+/* List where lines begin. */
+static qdot_status
+list_lines(qdot_source *s)
+{
+    const char *end;
+
+    for (const char *c = s->text; (end = memchr(c, '\n', (size_t)(s->text + s->length - c))) != NULL; c = end + 1)
+        QDOT_TRY(qdot_vec_push(&s->lines, (uint32_t)(end + 1 - s->text)));
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_source_new(const char *name, const char *text, size_t length, qdot_source **source,
                 size_t *at)
@@ -37,7 +48,9 @@ qdot_source_new(const char *name, const char *text, size_t length, qdot_source *
     memcpy(s->text, text, length);
     s->text[length] = '\0';
 
-    status = qdot_lex(s, at);
+    status = list_lines(s);
+    if (status == QDOT_OK)
+        status = qdot_lex(s, at);
     if (status == QDOT_ENOMEM) {
         qdot_source_free(s);
         return status;
@@ -63,20 +76,36 @@ qdot_source_free(qdot_source *source)
     qdot_free(source->name);
     qdot_free(source->text);
     qdot_free(source->tokens.at);
+    qdot_free(source->lines.at);
     qdot_arena_free(source->arena);
     qdot_free(source);
+}
+
+/* The number of lines before the one that contains byte `at`. */
+static size_t
+count_lines_before(const qdot_source *source, size_t at)
+{
+    size_t low = 0, high = source->lines.n;
+
+    while (low < high) { /* lines.at[0 .. low - 1] <= at < lines.at[high ..] */
+        const size_t middle = low + (high - low) / 2;
+
+        if (source->lines.at[middle] <= at)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 /* The first byte of the line that contains byte `at`; a byte-order mark belongs to no line. */
 static size_t
 find_start_of_line(const qdot_source *source, size_t at)
 {
-    size_t start = at;
+    const size_t line = count_lines_before(source, at), start = line > 0 ? source->lines.at[line - 1] : 0;
 
-    while (start > 0 && source->text[start - 1] != '\n')
-        start--;
     if (start == 0 && at >= 3 && strncmp(source->text, "\xEF\xBB\xBF", 3) == 0)
-        start = 3;
+        return 3;
     return start;
 }
 
@@ -88,15 +117,7 @@ qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line, uint32_
     if (at > source->length)
         at = source->length;
     start = find_start_of_line(source, at);
-    *line = source->lines_before + 1;
-    for (const char *c = source->text; c < source->text + start;) {
-        const char *end = memchr(c, '\n', (size_t)(source->text + start - c));
-
-        if (end == NULL)
-            break;
-        ++*line;
-        c = end + 1;
-    }
+    *line = source->lines_before + 1 + (uint32_t)count_lines_before(source, at);
     *column = 1 + (uint32_t)qdot_utf8_columns(source->text + start, at - start);
 }
 

@@ -30,6 +30,7 @@ typedef struct qdot_source {
     char *name;
     char *text; /* NUL-terminated copy of the source text */
     size_t length;
+    qdot_vec(uint32_t) lines; /* the first byte of each line but the first */
     uint32_t lines_before; /* number of lines of the same input before this text */
     qdot_arena *arena;
     qdot_vec(qdot_token) tokens; /* the tokens; the last one is END */
