@@ -68,7 +68,9 @@ qdot_number_text_bound(qdot_text *text, double error)
         lead = 1;
         power++;
     }
-    if (power >= -3 && power <= 3)
+    if (power >= 0 && power <= 3)
+        qdot_text_format(text, "%.0f", lead * pow(10, power));
+    else if (power >= -3 && power < 0)
         qdot_text_double(text, lead * pow(10, power), 1);
     else
         qdot_text_format(text, "%de%d", (int)lead, (int)power);

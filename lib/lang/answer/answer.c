@@ -262,14 +262,28 @@ append_decimal(qdot_sheet *s, qdot_formula_id parent, const char *number, size_t
     qdot_formula_add_text(&s->formula, parent, QDOT_TEXT_NUMBER, number + negative, n - negative);
 }
 
-/* Append a number, such as 1.5e-13; where a program shows answers typeset its power of ten is drawn: 1.5 · 10^(-13). */
+/* Whether numbers are typeset: in LaTeX, and where a program shows answers. */
+static bool
+is_typeset(const qdot_sheet *s)
+{
+    return s->style == QDOT_LATEX || qdot_write_displays(s->session);
+}
+
+/* Whether powers of ten are drawn, 1.5 · 10^(-13), instead of written, 1.5e-13. */
+static bool
+draws_powers(const qdot_sheet *s)
+{
+    return s->style == QDOT_LATEX || (s->notation == QDOT_NOTATION_DRAWN && qdot_write_displays(s->session));
+}
+
+/* Append a number, such as 1.5e-13. */
 static void
 append_number(qdot_sheet *s, const char *number, size_t n)
 {
     const char *e = memchr(number, 'e', n);
     qdot_formula_id power;
 
-    if (s->notation != QDOT_NOTATION_DRAWN || !qdot_write_displays(s->session)) {
+    if (!draws_powers(s)) {
         qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_NUMBER, number, n);
         return;
     }
@@ -287,22 +301,21 @@ append_number(qdot_sheet *s, const char *number, size_t n)
 static void
 append_part(qdot_sheet *s, const char *text, size_t n)
 {
-    const bool shown = qdot_write_displays(s->session);
-    const bool number = strspn(text + (*text == '-'), "0123456789.") > 0 || (!shown && *text != ' ');
+    const bool number = strspn(text + (*text == '-'), "0123456789.") > 0 || (!is_typeset(s) && *text != ' ');
 
     if (number)
         append_number(s, text, n);
-    else if (shown && s->style == QDOT_LATEX)
+    else if (s->style == QDOT_LATEX)
         qdot_sheet_format(s, "\\text{%.*s}", (int)n, text);
     else
         qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_WORDS, text, n);
 }
 
-/* Append the sign between a number and its error; in LaTeX for a program that shows it as a command. */
+/* Append the sign between a number and its error; in LaTeX as a command. */
 static void
 append_plus_minus(qdot_sheet *s)
 {
-    if (s->style == QDOT_LATEX && qdot_write_displays(s->session))
+    if (s->style == QDOT_LATEX)
         qdot_sheet_words(s, " \\pm ");
     else
         qdot_sheet_sign(s, QDOT_SIGN_PLUS_MINUS);
@@ -314,13 +327,50 @@ typedef enum { BY_BOUND, BY_STANDARD_ERROR, BY_DIGITS } rounding;
 
 enum { FEW_DIGITS = 4 };
 
+/* Append numbers and the signs between them, "1.25 ± 3e-13, 0.5 - 2*i (error unknown)", as parts of a formula. */
+static void
+append_numerals(qdot_sheet *s, const char *at)
+{
+    static const struct {
+        const char *text;
+        qdot_formula_sign sign;
+    } signs[] = {{", ", QDOT_SIGN_COMMA}, {" + ", QDOT_SIGN_PLUS}, {" - ", QDOT_SIGN_MINUS}, {"*", QDOT_SIGN_TIMES}};
+    static const char error[] = " ± ";
+
+    while (*at != '\0') {
+        const size_t minus = *at == '-', digits = strspn(at + minus, "0123456789.");
+        size_t n = digits > 0 ? minus + digits : 0;
+
+        if (n > 0) {
+            n += at[n] == 'e' ? 1 + strspn(at + n + 1, "+-0123456789") : 0;
+            append_number(s, at, n);
+        }
+        for (size_t i = 0; i < sizeof signs / sizeof *signs && n == 0; i++)
+            if (strncmp(at, signs[i].text, strlen(signs[i].text)) == 0) {
+                n = strlen(signs[i].text);
+                qdot_formula_add_sign(&s->formula, s->at, signs[i].sign);
+            }
+        if (n == 0 && strncmp(at, error, strlen(error)) == 0) {
+            n = strlen(error);
+            append_plus_minus(s);
+        }
+        if (n == 0 && *at == 'i') {
+            n = 1;
+            qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_NAME, at, n);
+        }
+        if (n == 0) {
+            n = 1 + strcspn(at + 1, "-0123456789,");
+            append_part(s, at, n);
+        }
+        at += n;
+    }
+}
+
 /* Append a number with its error, such as 1.25 ± 3e-13. */
 static void
 append_number_with_error(qdot_sheet *s, double value, double error, rounding by)
 {
-    static const char sign[] = " ± ";
     qdot_text number = {0};
-    const char *at;
 
     if (by == BY_DIGITS)
         qdot_text_double(&number, value, FEW_DIGITS);
@@ -329,16 +379,7 @@ append_number_with_error(qdot_sheet *s, double value, double error, rounding by)
     else
         qdot_number_text_with_error(&number, value, error);
     s->formula.failed = s->formula.failed || number.failed;
-    at = strstr(qdot_text_str(&number), sign);
-    if (at == NULL)
-        at = strstr(qdot_text_str(&number), " (");
-    append_part(s, qdot_text_str(&number), at != NULL ? (size_t)(at - number.at) : number.n);
-    if (at != NULL && *(at + 1) != '(') {
-        append_plus_minus(s);
-        at += strlen(sign);
-    }
-    if (at != NULL)
-        append_part(s, at, strlen(at));
+    append_numerals(s, qdot_text_str(&number));
     qdot_text_clear(&number);
 }
 
@@ -384,52 +425,13 @@ typedef struct {
     const char *name, *text;
 } named_numerals;
 
-/* Append numbers and the signs between them, "1.25 ± 3e-13, 0.5 - 2*i (error unknown)", as parts of a formula. */
-static void
-append_numerals(qdot_sheet *s, const char *at)
-{
-    static const struct {
-        const char *text;
-        qdot_formula_sign sign;
-    } signs[] = {{", ", QDOT_SIGN_COMMA}, {" + ", QDOT_SIGN_PLUS}, {" - ", QDOT_SIGN_MINUS}, {"*", QDOT_SIGN_TIMES}};
-    static const char error[] = " ± ";
-
-    while (*at != '\0') {
-        const size_t minus = *at == '-', digits = strspn(at + minus, "0123456789.");
-        size_t n = digits > 0 ? minus + digits : 0;
-
-        if (n > 0) {
-            n += at[n] == 'e' ? 1 + strspn(at + n + 1, "+-0123456789") : 0;
-            append_number(s, at, n);
-        }
-        for (size_t i = 0; i < sizeof signs / sizeof *signs && n == 0; i++)
-            if (strncmp(at, signs[i].text, strlen(signs[i].text)) == 0) {
-                n = strlen(signs[i].text);
-                qdot_formula_add_sign(&s->formula, s->at, signs[i].sign);
-            }
-        if (n == 0 && strncmp(at, error, strlen(error)) == 0) {
-            n = strlen(error);
-            append_plus_minus(s);
-        }
-        if (n == 0 && *at == 'i') {
-            n = 1;
-            qdot_formula_add_text(&s->formula, s->at, QDOT_TEXT_NAME, at, n);
-        }
-        if (n == 0) {
-            n = 1 + strcspn(at + 1, "-0123456789,");
-            append_part(s, at, n);
-        }
-        at += n;
-    }
-}
-
 static qdot_status
 append_named_numerals(qdot_sheet *s, const void *answer)
 {
     const named_numerals *x = answer;
     const qdot_status status = begin_named_formula(s, x->name);
 
-    if (s->notation == QDOT_NOTATION_DRAWN && qdot_write_displays(s->session))
+    if (draws_powers(s))
         append_numerals(s, x->text);
     else
         qdot_sheet_words(s, x->text);

@@ -121,12 +121,7 @@ append_event_line(qdot_session *session, int digits, qdot_text *text, const qdot
         QDOT_TRY(qdot_digits_number(session, o->exact, digits, &error, text));
     else
         qdot_number_text_known(text, o->t, error);
-    if (isnan(error)) {
-        qdot_text_add(text, " (error unknown)");
-    } else {
-        qdot_text_add(text, " ± ");
-        qdot_number_text_bound(text, error);
-    }
+    qdot_number_text_error(text, error);
     qdot_text_format(text, "%s  %s\n", qdot_units_on(session) ? " [s]" : "",
                      o->way > 0   ? "rising"
                      : o->way < 0 ? "falling"
@@ -143,8 +138,7 @@ print_unknown_span(const qdot_run *run, const qdot_run_faded *faded, qdot_text *
 
         qdot_text_format(text, "%s  at t = ", faded->event);
         qdot_number_text_known(text, faded->from + (faded->to - faded->from) / 2, half);
-        qdot_text_add(text, " ± ");
-        qdot_number_text_bound(text, half);
+        qdot_number_text_error(text, half);
         qdot_text_add(text, " its sides touch within rounding: whether it occurs there is not known");
         return;
     }

@@ -41,12 +41,7 @@ answer_complex(qdot_session *session, const char *name, double re, double im,
     qdot_text_add(&x.text, im < 0 ? " - " : " + ");
     qdot_number_text(&x.text, fabs(im), error);
     qdot_text_add(&x.text, "*i");
-    if (isnan(error)) {
-        qdot_text_add(&x.text, " (error unknown)");
-    } else {
-        qdot_text_add(&x.text, " ± ");
-        qdot_number_text_bound(&x.text, error);
-    }
+    qdot_number_text_error(&x.text, error);
     return qdot_answer_numerals(session, name, false, QDOT_OK, &x);
 }
 
