@@ -309,7 +309,8 @@ qdot_alike_find(qdot_motion *motion)
     qdot_status status;
     bool worth = false;
 
-    if (motion->solved.n > 0 || motion->program.lead > 0)
+    if (motion->solved.n > 0 || motion->program.lead > 0 ||
+        motion->program.length - motion->program.still < least_parts)
         return QDOT_OK;
     status = qdot_alike_parts_find(motion, &parts);
     if (status == QDOT_OK && parts.n >= least_parts) {
