@@ -28,6 +28,11 @@ QDOT_MUST_CHECK qdot_status qdot_mech_dalembert(qdot_scene *s,
                                                 qdot_dalembert_term **terms, size_t *n,
                                                 qdot_expr *Q);
 
+/* The same terms without derivatives by the coordinates, of which there are n for each term; and Q_i, a LIST, without what
+ * has a potential, to which _potential gives the rest. */
+QDOT_MUST_CHECK qdot_status qdot_mech_dalembert_terms(qdot_scene *s, qdot_dalembert_term **terms, size_t *n);
+qdot_expr qdot_mech_dalembert_applied(qdot_scene *s);
+
 /* V of this scene with given positions: sum -w g x of the terms with an axis, with x replaced by
  * places [n], plus the declared potentials. Nil: the pool keeps the failure. */
 qdot_expr qdot_mech_dalembert_potential(qdot_scene *s, size_t n,

@@ -245,12 +245,15 @@ qdot_mech_energy(qdot_scene *s)
 static bool
 contains_time(qdot_scene *s)
 {
-    const qdot_kinematics *k = qdot_kinematics_get(s);
+    qdot_kinematics k = {0};
     uint32_t holds = qdot_mech_holds(s, qdot_potential_but_gravity(s));
 
-    for (size_t p = 0; k && p < k->terms.n; p++)
-        holds |= qdot_mech_holds(s, k->terms.at[p].w) | qdot_mech_holds(s, k->terms.at[p].x)
-                 | qdot_mech_holds(s, k->terms.at[p].y);
+    if (qdot_kinematics_terms(s, &k) != QDOT_OK)
+        qdot_pool_fail(s->pool);
+    for (size_t p = 0; p < k.terms.n; p++)
+        holds |= qdot_mech_holds(s, k.terms.at[p].w) | qdot_mech_holds(s, k.terms.at[p].x)
+                 | qdot_mech_holds(s, k.terms.at[p].y);
+    qdot_free(k.terms.at);
     for (size_t i = 0; i < s->gravities.n; i++)
         holds |= qdot_mech_holds(s, s->gravities.at[i].e);
     return (holds & QDOT_HAS_TIME) != 0;

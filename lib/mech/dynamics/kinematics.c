@@ -457,19 +457,24 @@ group_all_terms(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_gr
     return status;
 }
 
+qdot_status
+qdot_kinematics_terms(qdot_scene *s, qdot_kinematics *k)
+{
+    for (size_t i = 0; i < s->particles.n; i++)
+        QDOT_TRY(add_point_mass(s, k, s->particles.at[i].mass, s->particles.at[i].position));
+    for (size_t i = 0; i < s->bodies.n; i++)
+        QDOT_TRY(add_terms_of_body(s, k, &s->bodies.at[i]));
+    return QDOT_OK;
+}
+
 static qdot_status
 build_kinematics(qdot_scene *s, qdot_kinematics *k)
 {
     size_t n = k->n = s->coordinates.n;
-    qdot_status status = QDOT_OK;
     uint64_t *bits;
     bool crossed = false;
 
-    for (size_t i = 0; i < s->particles.n && status == QDOT_OK; i++)
-        status = add_point_mass(s, k, s->particles.at[i].mass, s->particles.at[i].position);
-    for (size_t i = 0; i < s->bodies.n && status == QDOT_OK; i++)
-        status = add_terms_of_body(s, k, &s->bodies.at[i]);
-    QDOT_TRY(status);
+    QDOT_TRY(qdot_kinematics_terms(s, k));
     k->words = k->terms.n / 64 + 1;
     k->dx = qdot_calloc(n + 1, sizeof *k->dx);
     for (size_t p = 0; p < k->terms.n; p++)

@@ -6,6 +6,8 @@
 
 /* The inertial terms w x' y' of T, their sets and the groups of their derivatives; NULL on failure. */
 qdot_kinematics *qdot_kinematics_get(qdot_scene *s);
+/* The inertial terms alone, added to k->terms. */
+QDOT_MUST_CHECK qdot_status qdot_kinematics_terms(qdot_scene *s, qdot_kinematics *k);
 /* _rest, _place: the groups of x'' and of x in k, computed when first needed; that adds sets to k. NULL on failure. */
 const qdot_groups *qdot_kinematics_rest(qdot_scene *s, qdot_kinematics *k);
 const qdot_groups *qdot_kinematics_place(qdot_scene *s, qdot_kinematics *k);

@@ -35,7 +35,8 @@ struct qdot_bind {
     qdot_leading *leading; /* the first Taylor coefficients in double-double precision; NULL: not requested */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
-    qdot_tree_series *elsewhere;
+    qdot_tree_series *elsewhere; /* along the tree; else: */
+    qdot_motion_series *elsewhere_back; /* by sweeps back through the functions (sim/form/residual-adjoint.h) */
     bool shaken;
     double *in;         /* [3n + 1] inputs of the tape: q, q', t, q'' */
     double *out, *work; /* outputs and scratch of the tape */

@@ -30,6 +30,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_motion_series_free(b->direct);
     qdot_tree_series_free(b->tree);
     qdot_tree_series_free(b->elsewhere);
+    qdot_motion_series_free(b->elsewhere_back);
     qdot_guarded_free(b->guarded);
     qdot_leading_free(b->leading);
     qdot_phase_free(b->phase);
@@ -85,17 +86,33 @@ solve_blocks(qdot_blocks *blocks, const double *out, double *a, const double **e
     return QDOT_OK;
 }
 
-/* q'' at the inputs for a plan without a mass matrix: from the first coefficients of the series
- * along the tree. */
+/* The series of a plan without a mass matrix that is read apart from the one of the run. */
+static qdot_status
+make_separate_series(qdot_bind *b, const qdot_ode_series **series)
+{
+    const qdot_plan *p = b->plan;
+    const qdot_residual *r = p->residual;
+
+    if (r->adjoint) {
+        if (!b->elsewhere_back)
+            QDOT_TRY(qdot_motion_series_of_residual(p, &r->motion, NULL, b->shaken, &b->elsewhere_back));
+        *series = qdot_motion_series_get(b->elsewhere_back);
+        return QDOT_OK;
+    }
+    if (!b->elsewhere)
+        QDOT_TRY(qdot_tree_series_new(p, r, b->shaken, &b->elsewhere));
+    *series = qdot_tree_series_get(b->elsewhere);
+    return QDOT_OK;
+}
+
+/* q'' at the inputs for a plan without a mass matrix: from the first coefficients of a series. */
 static qdot_status
 accelerations_from_separate_series(qdot_bind *b, double *a)
 {
     const qdot_plan *p = b->plan;
     const qdot_ode_series *series;
 
-    if (!b->elsewhere)
-        QDOT_TRY(qdot_tree_series_new(p, p->residual, b->shaken, &b->elsewhere));
-    series = qdot_tree_series_get(b->elsewhere);
+    QDOT_TRY(make_separate_series(b, &series));
     QDOT_TRY(series->begin(b->in[2 * p->n], b->in, 1, series->user));
     for (size_t i = 0; i < p->n; i++)
         a[i] = series->x[(p->n + i) * series->stride + 1];

@@ -2,7 +2,6 @@
 #include "sim/course/drift.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/symbol.h"
@@ -187,8 +186,6 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     d->energy = d->n == 1;
     if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
-    else if (status == QDOT_OK)
-        memcpy(absent, p->residual->absent, p->n * sizeof *absent);
     qdot_tape_free(made);
     return status;
 }
@@ -347,7 +344,7 @@ qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory
     if (!d->at)
         status = QDOT_ENOMEM;
     for (size_t i = 0; i < p->n && asked; i++)
-        asked[i] = true;
+        asked[i] = p->M || p->constraints || !p->residual || !p->residual->absent || p->residual->absent[i];
     if (status == QDOT_OK)
         status = measure_energy(scene, p, tr, stage, d, asked);
     for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)

@@ -89,14 +89,15 @@ size_t
 qdot_plan_operations(const qdot_plan *p, size_t *calls)
 {
     const qdot_plan *moving = p->reduced ? p->reduced : p;
-    const qdot_tape *tapes[] = {moving->tape, NULL};
+    const qdot_tape *tapes[] = {moving->tape, NULL, NULL};
     size_t operations = 0, of_calls = 0;
 
     if (!moving->tape) {
         tapes[0] = moving->residual->places;
-        tapes[1] = moving->residual->forces;
+        tapes[1] = moving->residual->adjoint ? moving->residual->adjoint : moving->residual->forces;
+        tapes[2] = moving->residual->adjoint ? moving->residual->forces : NULL;
     }
-    for (int i = 0; i < 2 && tapes[i]; i++) {
+    for (int i = 0; i < 3 && tapes[i]; i++) {
         operations += qdot_tape_operations(tapes[i]);
         of_calls += qdot_tape_calls(tapes[i]);
     }

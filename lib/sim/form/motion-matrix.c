@@ -40,8 +40,11 @@ qdot_status
 qdot_motion_matrix_begin(qdot_motion_matrix *K, double t, const double *y)
 {
     K->refined = QDOT_SADDLE_REFINED;
-    if (K->masses) {
-        evaluate_mass_matrix(K, t, y);
+    if (qdot_motion_matrix_is_mass(K)) {
+        if (K->columns)
+            qdot_mass_columns_evaluate(K->columns, t, y, K->solvers.at[0].a);
+        else
+            evaluate_mass_matrix(K, t, y);
         QDOT_TRY(factor_varying_blocks(K));
     }
     return K->saddle ? qdot_saddle_solver_look(K->saddle, t, y) : QDOT_OK;
@@ -50,7 +53,7 @@ qdot_motion_matrix_begin(qdot_motion_matrix *K, double t, const double *y)
 qdot_status
 qdot_motion_matrix_take_rows(qdot_motion_matrix *K)
 {
-    if (K->masses)
+    if (qdot_motion_matrix_is_mass(K))
         return QDOT_OK;
     for (size_t i = 0; i < K->n_entries; i++)
         *K->entries[i].to = *K->entries[i].from;
@@ -134,6 +137,7 @@ void
 qdot_motion_matrix_clear(qdot_motion_matrix *K)
 {
     qdot_tape_free(K->shaken);
+    qdot_mass_columns_free(K->columns);
     qdot_blocks_clear(&K->solvers);
     qdot_free(K->block);
     qdot_free(K->entries);
@@ -160,7 +164,7 @@ make_block_solvers(qdot_motion_matrix *K, bool shaken)
     if (!K->block)
         return QDOT_ENOMEM;
     for (size_t b = 0, k = 0; b < K->blocks; b++, k++) {
-        while (!K->masses && K->solvers.at[k].n == 1) /* skip single unknowns: each is given by its own row of the program */
+        while (!qdot_motion_matrix_is_mass(K) && K->solvers.at[k].n == 1) /* skip single unknowns: each is given by its own row of the program */
             k++;
         K->block[b] = k;
         QDOT_TRY(qdot_blocks_prepare(&K->solvers, k));
@@ -225,7 +229,11 @@ make_blocks(qdot_motion_matrix *K, qdot_taylor *taylor, bool shaken)
     K->by = qdot_calloc(K->motion->solved.n + 1, sizeof *K->by);
     if (!K->by)
         return QDOT_ENOMEM;
+    if (K->plan->residual && K->motion == &K->plan->residual->motion && K->plan->residual->adjoint)
+        QDOT_TRY(qdot_mass_columns_new(K->plan->residual, K->plan->n, shaken, &K->columns));
     QDOT_TRY(make_block_solvers(K, shaken));
+    if (K->columns)
+        return QDOT_OK;
     return K->masses ? make_residual_mass_tape(K, shaken) : list_varying_entries(K, taylor);
 }
 

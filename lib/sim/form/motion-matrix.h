@@ -1,7 +1,7 @@
 /* motion-matrix.h -- the matrix K of what a motion solves for, K d = -E, while a series is expanded.
  *
  *     explicit equations   entries are rows of the program; block by block, Cholesky or LDL^T
- *     d'Alembert's         K is M, from a tape of its own; likewise
+ *     d'Alembert's         K is M, from a tape of its own or column by column (mass-columns.h); likewise
  *     of constraints       [M A^T; A 0], of rows of the program, of any rank (saddle-solver.h)
  *
  * It is factored where a series begins. Orders up to QDOT_BLOCKS_SOLVED are solved for by that
@@ -15,6 +15,7 @@
 #include "series/lanes-motion.h"
 #include "series/taylor-motion.h"
 #include "sim/form/blocks.h"
+#include "sim/form/mass-columns.h"
 #include "sim/form/saddle-solver.h"
 
 /* An entry of the matrix K: the address of its value, and where it is copied. */
@@ -33,6 +34,7 @@ typedef struct {
     size_t *block; /* [blocks] index in `solvers` of each block */
     qdot_motion_matrix_entry *entries; /* [n_entries] entries of K that vary; none if the tape `masses` gives K */
     size_t n_entries;
+    qdot_mass_columns *columns; /* gives K as one block; NULL: not used */
     const qdot_tape *masses; /* tape that gives K; NULL: K comes from `entries` */
     qdot_tape *shaken;       /* copy of `masses` with slightly perturbed constants; NULL: none */
     double *in, *out, *work; /* inputs, outputs and scratch of `masses` */
@@ -47,6 +49,13 @@ QDOT_MUST_CHECK qdot_status qdot_motion_matrix_init(qdot_motion_matrix *K, const
                                                     const qdot_tape *masses,
                                                     qdot_taylor *taylor, bool shaken);
 void qdot_motion_matrix_clear(qdot_motion_matrix *K);
+
+/* Whether K is the mass matrix beside the program, not of its rows. */
+static inline bool
+qdot_motion_matrix_is_mass(const qdot_motion_matrix *K)
+{
+    return K->masses || K->columns;
+}
 
 /* Call _begin before order 0 is computed at y: reads entries that are no rows; then _take_rows for
  * those that are. */

@@ -57,6 +57,42 @@ add_tree_rows(builder *b)
             add_row_to_sum(b, &b->F[r->parent[f]], b->F[f]);
 }
 
+/* Program rows of sum_f dd_f/dq_i F_f + dV/dq_i, into E: the tape `adjoint` of F and s = 1. */
+static qdot_status
+add_adjoint(builder *b)
+{
+    const qdot_residual *r = b->residual;
+    const size_t inputs = 2 * b->plan->n + 1;
+    const qdot_program_constant zero = {.exact = QDOT_ZERO}, one = {.value = 1, .exact = QDOT_ONE};
+    qdot_program_row *in = qdot_calloc(inputs + r->functions + 1, sizeof *in);
+
+    if (!in)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < inputs; i++)
+        in[i] = b->inputs[i];
+    for (size_t f = 0; f < r->functions; f++)
+        in[inputs + f] = b->F[f] == QDOT_NO_ROW ? qdot_program_number(b->program, zero) : b->F[f];
+    in[inputs + r->functions] = qdot_program_number(b->program, one);
+    qdot_program_append(b->program, r->adjoint, in, b->E);
+    qdot_free(in);
+    return QDOT_OK;
+}
+
+static void
+subtract_applied_forces(builder *b)
+{
+    for (size_t i = 0; i < b->plan->n; i++) {
+        const uint32_t at = b->residual->force[i];
+
+        if (at != UINT32_MAX) {
+            const qdot_program_row Q =
+                at & QDOT_RESIDUAL_FORCES ? b->forces[at ^ QDOT_RESIDUAL_FORCES] : b->places[at];
+
+            b->E[i] = qdot_program_operation(b->program, QDOT_OP_SUB, b->E[i], Q, Q);
+        }
+    }
+}
+
 static void
 add_equations(builder *b)
 {
@@ -125,7 +161,12 @@ build_residual_motion(builder *b)
     if (r->forces)
         qdot_program_append(b->program, r->forces, b->inputs, b->forces);
     add_tree_rows(b);
-    add_equations(b);
+    if (r->adjoint) {
+        QDOT_TRY(add_adjoint(b));
+        subtract_applied_forces(b);
+    } else {
+        add_equations(b);
+    }
     return add_unknowns(b);
 }
 

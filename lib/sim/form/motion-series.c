@@ -244,7 +244,7 @@ choose_machine_code(qdot_motion_series *s)
         return;
     }
     s->why = "machine code is not asked for";
-    if (s->K.masses) {
+    if (qdot_motion_matrix_is_mass(&s->K)) {
         s->series.code = (qdot_ode_code){
             .take = take_no_lanes_code, .there = has_lanes_code, .drop = drop_lanes_code, .user = s};
         if (may_have_lanes_code(s->plan, s->motion))
@@ -399,7 +399,7 @@ qdot_motion_series_code(const qdot_motion_series *s, const char **why)
 {
     size_t bytes;
 
-    if (s->K.masses) {
+    if (qdot_motion_matrix_is_mass(&s->K)) {
         *why = s->code ? NULL : s->why;
         return s->code ? qdot_lanes_motion_size(s->code) : 0;
     }

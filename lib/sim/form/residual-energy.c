@@ -8,13 +8,17 @@
 #include "expr/symbol.h"
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/absent.h"
+#include "sim/model/switch.h"
 
 /* Add to each function (or its rate) that of its parent, from the root down: differences become values. */
 static void
 sum_from_root_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_expr *x)
 {
-    for (size_t f = 0; f < r->functions; f++) {
-        qdot_expr d = rates ? qdot_ddt(pool, r->difference[f]) : r->difference[f];
+    /* as one list, so that what functions share is derived once */
+    const qdot_expr all = qdot_list(pool, (uint32_t)r->functions, r->difference), list = rates ? qdot_ddt(pool, all) : all;
+
+    for (size_t f = 0; f < r->functions && list != QDOT_NIL; f++) {
+        qdot_expr d = qdot_expr_arg(pool, list, (uint32_t)f);
 
         if (r->parent[f] != UINT32_MAX)
             d = qdot_add(pool, x[r->parent[f]], d);
@@ -22,18 +26,27 @@ sum_from_root_down(qdot_pool *pool, const qdot_residual *r, bool rates, qdot_exp
     }
 }
 
-/* Add up the energy T + V from its terms; x [functions + 2n] is work space. */
+/* V with the functions' values, summed up into x [functions + n]. */
+static qdot_expr
+sum_potential(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms, qdot_expr *x)
+{
+    qdot_expr *places = x + r->functions;
+
+    sum_from_root_down(scene->pool, r, false, x);
+    for (size_t k = 0; k < n; k++)
+        places[k] = x[r->weights[k].to];
+    return qdot_mech_dalembert_potential(scene, n, terms, places);
+}
+
+/* Add up the energy T + V from its terms; x [functions + n] is work space. */
 static qdot_expr
 sum_energy(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
            qdot_expr *x)
 {
     qdot_pool *pool = scene->pool;
-    qdot_expr *places = x + r->functions, *kinetic = places + n, V;
+    const qdot_expr V = sum_potential(scene, r, n, terms, x);
+    qdot_expr *kinetic = x + r->functions;
 
-    sum_from_root_down(pool, r, false, x);
-    for (size_t k = 0; k < n; k++)
-        places[k] = x[r->weights[k].to];
-    V = qdot_mech_dalembert_potential(scene, n, terms, places);
     sum_from_root_down(pool, r, true, x);
     for (size_t k = 0; k < n; k++)
         kinetic[k] = qdot_mul(pool, terms[k].w,
@@ -41,25 +54,43 @@ sum_energy(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalem
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, qdot_sum(pool, n, kinetic)), V);
 }
 
+/* A sum over the terms of the scene by the functions of its residual, parameter values put in. */
+static qdot_status
+sum_by_functions(qdot_scene *scene, const qdot_plan *p, const qdot_residual *r,
+                 qdot_expr (*sum)(qdot_scene *scene, const qdot_residual *r, size_t n, const qdot_dalembert_term *terms,
+                                  qdot_expr *x),
+                 qdot_expr *e)
+{
+    qdot_dalembert_term *terms;
+    qdot_expr *x;
+    size_t n;
+
+    *e = QDOT_NIL;
+    QDOT_TRY(qdot_mech_dalembert_terms(scene, &terms, &n));
+    x = qdot_calloc(r->functions + n + 1, sizeof *x);
+    if (x)
+        *e = qdot_plan_substitute(p, sum(scene, r, n, terms, x));
+    qdot_free(x);
+    qdot_free(terms);
+    return x ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
+}
+
+qdot_status
+qdot_residual_potential(qdot_scene *scene, const qdot_plan *p, const qdot_residual *r, qdot_expr *V)
+{
+    return sum_by_functions(scene, p, r, sum_potential, V);
+}
+
 qdot_status
 qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *p, qdot_residual *r)
 {
-    qdot_dalembert_term *terms;
-    qdot_expr Q, *x;
-    size_t n;
-
     for (size_t f = 0; f < r->functions; f++)
         if (qdot_expr_node(p->pool, r->difference[f])->holds & QDOT_HAS_TIME)
             return QDOT_OK;
-    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
-    x = qdot_calloc(r->functions + 2 * n, sizeof *x);
-    r->h = x ? qdot_plan_substitute(p, sum_energy(scene, r, n, terms, x)) : QDOT_NIL;
-    qdot_free(x);
-    qdot_free(terms);
-    if (!x)
-        return QDOT_ENOMEM;
-    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(sum_by_functions(scene, p, r, sum_energy, &r->h));
     QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &r->h, &r->energy));
-    r->absent = qdot_malloc(p->n * sizeof *r->absent);
-    return r->absent ? qdot_absent_find(r->energy, p->n, r->absent) : QDOT_ENOMEM;
+    r->absent = qdot_calloc(p->n, sizeof *r->absent);
+    if (!r->absent)
+        return QDOT_ENOMEM;
+    return r->adjoint && p->n >= QDOT_MANY_COORDINATES ? QDOT_OK : qdot_absent_find(r->energy, p->n, r->absent);
 }

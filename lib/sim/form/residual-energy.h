@@ -12,6 +12,9 @@
 
 #include "sim/form/residual.h"
 
+/* V with the values put in. Errors: those of deriving. */
+QDOT_MUST_CHECK qdot_status qdot_residual_potential(qdot_scene *scene, const qdot_plan *plan,
+                                                    const qdot_residual *residual, qdot_expr *V);
 /* Into residual->h, ->energy and ->absent, the values put in; these stay as they are where places
  * hold t: what Lagrange's equations conserve is not T + V there. Errors: those of deriving. */
 QDOT_MUST_CHECK qdot_status qdot_residual_add_energy(qdot_scene *scene, const qdot_plan *plan,

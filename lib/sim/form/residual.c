@@ -9,7 +9,6 @@
 #include "expr/node.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
-#include "mech/dynamics/dalembert.h"
 #include "series/program.h"
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
@@ -24,6 +23,7 @@ typedef struct {
     qdot_residual *r;
     qdot_vec(qdot_expr) functions, outputs, forces;
     qdot_keymap place; /* maps each term of the sum recorded last to its position in that sum */
+    bool slopes; /* derivatives of the differences are wanted */
     qdot_vec(qdot_expr) terms; /* the terms of a difference of two positions */
 } builder;
 
@@ -42,6 +42,8 @@ qdot_residual_free(qdot_residual *r)
     qdot_tape_free(r->forces);
     qdot_tape_free(r->masses);
     qdot_tape_free(r->energy);
+    qdot_tape_free(r->adjoint);
+    qdot_tape_free(r->along);
     qdot_motion_clear(&r->motion);
     qdot_program_clear(&r->of_places);
     qdot_program_clear(&r->of_forces);
@@ -331,7 +333,7 @@ residual_build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr
         QDOT_TRY(choose_parent(b, f));
     for (size_t f = 0; f < r->functions; f++)
         QDOT_TRY(qdot_vec_push(&b->outputs, b->r->difference[f]));
-    for (size_t f = 0; f < r->functions; f++)
+    for (size_t f = 0; f < r->functions && b->slopes; f++)
         QDOT_TRY(add_function_derivatives(b, f));
     QDOT_TRY(add_applied_forces(b, Q));
     QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, b->outputs.n, b->outputs.at,
@@ -346,23 +348,15 @@ residual_build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr
 }
 
 qdot_status
-qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **residual)
+qdot_residual_of_terms(const qdot_plan *plan, size_t n, const qdot_dalembert_term *terms, qdot_expr Q, bool slopes,
+                       qdot_residual **residual)
 {
-    qdot_dalembert_term *terms;
-    builder b = {.plan = plan};
-    qdot_expr Q;
-    size_t n;
+    builder b = {.plan = plan, .slopes = slopes};
     qdot_status status;
 
     *residual = NULL;
-    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
-    if (n == 0) {
-        qdot_free(terms);
-        return QDOT_OK;
-    }
     b.r = qdot_calloc(1, sizeof *b.r);
     status = b.r ? residual_build(&b, terms, n, Q) : QDOT_ENOMEM;
-    qdot_free(terms);
     qdot_free(b.functions.at);
     qdot_keymap_clear(&b.place);
     qdot_free(b.terms.at);
@@ -379,6 +373,22 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     }
     *residual = b.r;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **residual)
+{
+    qdot_dalembert_term *terms;
+    qdot_expr Q;
+    size_t n;
+    qdot_status status = QDOT_OK;
+
+    *residual = NULL;
+    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
+    if (n > 0)
+        status = qdot_residual_of_terms(plan, n, terms, Q, true, residual);
+    qdot_free(terms);
+    return status;
 }
 
 qdot_status

@@ -11,6 +11,9 @@
  *
  * a chain of N links takes work N in all that, and 4 N convolutions an order.
  *
+ * Where functions depend on many coordinates each, as places along an arm in space do, there are no slopes: all R_i come
+ * from one sweep back through the functions (residual-adjoint.h).
+ *
  * Order k of R, with coefficient k + 2 of q taken as 0, gives M_0 a_k = -R_k; a_k is then
  * propagated (qdot_taylor_change). The series of d'' is that of d, shifted.
  *
@@ -21,7 +24,7 @@
 #ifndef QDOT_SIM_RESIDUAL_H
 #define QDOT_SIM_RESIDUAL_H
 
-#include "mech/scene/scene.h"
+#include "mech/dynamics/dalembert.h"
 #include "series/motion.h"
 #include "sim/model/equations.h"
 
@@ -55,6 +58,9 @@ struct qdot_residual {
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */
     qdot_program of_places, of_forces; /* series programs of these tapes, made by qdot_residual_programs */
+    /* Instead of slopes and of the forces that have a potential (residual-adjoint.h); NULL: there are slopes. */
+    qdot_tape *adjoint; /* from q, q', t, F [functions], s: outputs sum_f dd_f/dq_i F_f + s dV/dq_i */
+    qdot_tape *along;   /* from q, a, t: the differentials of d_f along a, sum_i dd_f/dq_i a_i */
     qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
                            has masses */
 
@@ -62,7 +68,8 @@ struct qdot_residual {
      * (sim/form/residual-energy.h). */
     qdot_expr h;
     qdot_tape *energy;
-    bool *absent; /* [n] whether h may be independent of the coordinate, as found at sample points */
+    bool *absent; /* [n] whether h may be independent of the coordinate, as found at sample points; none of many
+                     where there is `adjoint`: a proof of it would derive what that spares */
 };
 
 #define QDOT_RESIDUAL_FORCES (UINT32_C(1) << 31)
@@ -71,6 +78,9 @@ struct qdot_residual {
  * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
+/* Of these n > 0 terms and forces Q, with slopes or without. *residual NULL: its tapes have no series. */
+QDOT_MUST_CHECK qdot_status qdot_residual_of_terms(const qdot_plan *plan, size_t n, const qdot_dalembert_term *terms,
+                                                   qdot_expr Q, bool slopes, qdot_residual **residual);
 /* Make the Taylor series programs of the residual's tapes, unless they exist. Errors: those of series. */
 QDOT_MUST_CHECK qdot_status qdot_residual_programs(qdot_residual *residual);
 void qdot_residual_free(qdot_residual *residual);

@@ -22,6 +22,7 @@ qdot_plan_tapes(const qdot_plan *p, const qdot_tape *tapes[QDOT_PLAN_TAPES])
     tapes[3] = p->constraints ? p->constraints->positions : NULL;
     tapes[4] = p->constraints ? p->constraints->velocities : NULL;
     tapes[5] = p->reduced ? p->reduced->tape : NULL;
+    tapes[6] = p->residual ? p->residual->adjoint : NULL;
 }
 
 bool

@@ -9,7 +9,7 @@
 #include "sim/model/equations.h"
 #include "tape/knots.h"
 
-enum { QDOT_PLAN_TAPES = 6 };
+enum { QDOT_PLAN_TAPES = 7 };
 
 /* The tapes from which the equations of a plan are evaluated; NULL: the plan has no such form. Inputs are q, q', t; of the last
  * one, of a reduced plan, kept momenta behind these. */

@@ -14,6 +14,7 @@
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
+#include "mech/dynamics/potential.h"
 #include "mech/dynamics/energy.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/model/layer.h"
@@ -176,6 +177,22 @@ check_smoothness(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smoo
     return status;
 }
 
+bool
+qdot_switches_are_spatial(const qdot_scene *scene)
+{
+    bool turns = false;
+
+    for (size_t i = 0; i < scene->bodies.n; i++)
+        turns |= scene->bodies.at[i].angle == QDOT_NIL;
+    return turns && scene->coordinates.n >= QDOT_MANY_TURNING && scene->constraints.n == 0 && scene->states.n == 0;
+}
+
+bool
+qdot_switches_are_many(const qdot_scene *scene)
+{
+    return scene->coordinates.n >= QDOT_MANY_COORDINATES || qdot_switches_are_spatial(scene);
+}
+
 /* Whether nothing switches in the ingredients of the equations: positions and applied forces. So
  * M and f need not be derived, which takes long for many coordinates. */
 static qdot_status
@@ -188,7 +205,12 @@ find_whether_smooth(qdot_scene *scene, const qdot_run_request *request, bool *sm
     qdot_status status;
 
     *smooth = false;
-    QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
+    if (qdot_switches_are_spatial(scene)) {
+        QDOT_TRY(qdot_mech_dalembert_terms(scene, &terms, &n));
+        Q = qdot_list(pool, 2, (qdot_expr[]){qdot_mech_dalembert_applied(scene), qdot_potential_but_gravity(scene)});
+    } else {
+        QDOT_TRY(qdot_mech_dalembert(scene, &terms, &n, &Q));
+    }
     if (n > 0 && scene->constraints.n == 0)
         Q = qdot_substitute(pool, Q, request->n_values, request->symbols, request->values);
     else
@@ -266,7 +288,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
     qdot_expr e[2];
 
     s->pool = pool;
-    if (scene->coordinates.n >= QDOT_MANY_COORDINATES)
+    if (qdot_switches_are_many(scene))
         QDOT_TRY(find_whether_smooth(scene, request, &smooth));
     if (smooth)
         return QDOT_OK;

@@ -53,6 +53,14 @@ typedef struct qdot_switches {
  * milliseconds. */
 enum { QDOT_MANY_COORDINATES = 32 };
 
+/* So many where bodies turn in space: entries of M along an arm of N links are sums over links of products of N angles. */
+enum { QDOT_MANY_TURNING = 12 };
+
+/* Whether a scene has that many coordinates; whether so many with bodies that turn in space, and neither constraints nor
+ * first-order unknowns: forces with a potential are not derived, either (sim/form/residual-adjoint.h). */
+bool qdot_switches_are_many(const qdot_scene *scene);
+bool qdot_switches_are_spatial(const qdot_scene *scene);
+
 /* The number of surfaces at which the equations themselves switch, not counting contacts and discs. */
 static inline size_t
 qdot_switches_own(const qdot_switches *s)

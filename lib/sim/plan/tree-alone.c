@@ -7,6 +7,9 @@
 #include "expr/symbol.h"
 #include "ode/leading.h"
 #include "sim/form/derived.h"
+#include "sim/form/motion-of-residual.h"
+#include "sim/form/motion-series.h"
+#include "sim/form/residual-adjoint.h"
 #include "sim/form/residual-energy.h"
 #include "sim/form/residual-tree.h"
 #include "sim/form/tree-series.h"
@@ -20,9 +23,10 @@ static bool
 may_use_tree_alone(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
     return p->mode && p->mode->atoms.n == 0 && !qdot_sliding_is(p->mode, p->side)
-           && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
+           && qdot_switches_are_many(scene) && p->n_states == 0
            && scene->constraints.n == 0 && request->digits == 0 && p->method->series
-           && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;
+           && !qdot_plan_needs_jacobian(p)
+           && (request->tol > QDOT_ODE_LEADING_TOL || (p->n >= QDOT_MANY_COORDINATES && qdot_switches_are_spatial(scene)));
 }
 
 /* Mark pairs of coordinates that M may couple: of one node, or of a node and one of its ancestors;
@@ -153,28 +157,52 @@ decide_by_cost(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+/* One block of all coordinates: which of them M couples is not asked. */
+static qdot_status
+make_one_block(qdot_plan *p)
 {
-    qdot_residual_tree *tree = NULL;
-    bool taken = false;
+    bool *pattern = qdot_malloc(p->n * p->n * sizeof *pattern);
     qdot_status status;
 
-    if (!may_use_tree_alone(p, scene, request))
+    if (!pattern)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < p->n * p->n; i++)
+        pattern[i] = true;
+    status = qdot_structure_find(pattern, p->n, &p->structure);
+    qdot_free(pattern);
+    p->blocks = qdot_calloc(1, sizeof *p->blocks);
+    if (status != QDOT_OK || !p->blocks)
+        return status == QDOT_OK ? QDOT_ENOMEM : status;
+    *p->blocks = (qdot_plan_block){.n = p->n, .index = p->structure.index};
+    return QDOT_OK;
+}
+
+/* Take the form without slopes for bodies that turn in space, if it applies. */
+static qdot_status
+take_adjoint(qdot_plan *p, qdot_scene *scene, bool *taken)
+{
+    qdot_residual *r;
+    qdot_work work;
+
+    QDOT_TRY(qdot_residual_adjoint_new(scene, p, &r));
+    p->residual = r;
+    if (!r || tree_may_hide_forces(r))
         return QDOT_OK;
-    QDOT_TRY(qdot_residual_new(scene, p, &p->residual));
-    if (!p->residual)
-        return QDOT_OK;
-    status = tree_may_hide_forces(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
-    if (tree)
-        status = qdot_residual_add_energy(scene, p, p->residual);
-    if (tree && status == QDOT_OK && p->residual->energy)
-        status = decide_by_cost(p, tree, &taken);
-    qdot_residual_tree_free(tree);
-    if (status == QDOT_OK && taken) {
-        p->smooth = true;
-        return QDOT_OK;
-    }
+    QDOT_TRY(qdot_residual_add_energy(scene, p, r));
+    QDOT_TRY(make_one_block(p));
+    QDOT_TRY(qdot_motion_of_residual(p, r, &r->motion));
+    work = qdot_motion_series_work_of_residual(p, &r->motion, r->adjoint);
+    p->form = QDOT_FORM_RESIDUAL;
+    p->convolutions_residual = r->motion.program.convolutions;
+    p->expansions = qdot_cost_implicit(&work);
+    p->cost = qdot_cost_steps(&p->expansions);
+    *taken = true;
+    return QDOT_OK;
+}
+
+static void
+drop_what_was_found(qdot_plan *p)
+{
     qdot_residual_free(p->residual);
     p->residual = NULL;
     qdot_structure_clear(&p->structure);
@@ -183,5 +211,38 @@ qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *re
     p->form = QDOT_FORM_NONE;
     p->tree_nodes = 0;
     p->convolutions_residual = 0;
+}
+
+static qdot_status
+find_tree(qdot_plan *p, qdot_scene *scene, bool *taken)
+{
+    qdot_residual_tree *tree = NULL;
+    qdot_status status;
+
+    QDOT_TRY(qdot_residual_new(scene, p, &p->residual));
+    if (!p->residual)
+        return QDOT_OK;
+    status = tree_may_hide_forces(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
+    if (tree)
+        status = qdot_residual_add_energy(scene, p, p->residual);
+    if (tree && status == QDOT_OK && p->residual->energy)
+        status = decide_by_cost(p, tree, taken);
+    qdot_residual_tree_free(tree);
+    return status;
+}
+
+qdot_status
+qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    bool taken = false;
+    qdot_status status;
+
+    if (!may_use_tree_alone(p, scene, request))
+        return QDOT_OK;
+    status = qdot_switches_are_spatial(scene) ? take_adjoint(p, scene, &taken) : find_tree(p, scene, &taken);
+    if (status == QDOT_OK && taken)
+        p->smooth = true;
+    else
+        drop_what_was_found(p);
     return status;
 }

@@ -6,6 +6,8 @@
  * tree's do: each pair of coordinates of which one's node hangs on the other's is an entry of M,
  * two convolutions an order.
  *
+ * Where bodies turn in space it is the residual by sweeps back (sim/form/residual-adjoint.h), from 12 coordinates on.
+ *
  * Left out are scenes where something else reads M or f: constraints, switches, methods that take
  * evaluations or Jacobians, first orders in two doubles, cyclic coordinates that are worth an
  * elimination (sim/plan/routh.h), coordinates that fall into groups.
