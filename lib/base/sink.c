@@ -125,6 +125,27 @@ qdot_sink_open(qdot_sink *sink, const char *path)
     return status;
 }
 
+/* Not by stdio, which drops what remains of its buffer when a signal interrupts it. */
+bool
+qdot_sink_write_to(FILE *file, const char *bytes, size_t length)
+{
+    const int fd = fileno(file);
+
+    if (fflush(file) != 0)
+        return false;
+    if (fd < 0) /* a stream in memory */
+        return fwrite(bytes, 1, length, file) == length && fflush(file) == 0;
+    while (length > 0) {
+        const ssize_t n = write(fd, bytes, length);
+
+        if (n < 0 && errno != EINTR)
+            return false;
+        bytes += n > 0 ? n : 0;
+        length -= n > 0 ? (size_t)n : 0;
+    }
+    return true;
+}
+
 qdot_status
 qdot_sink_put(qdot_sink *sink, const char *bytes, size_t length)
 {

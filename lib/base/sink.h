@@ -10,6 +10,7 @@
 #ifndef QDOT_BASE_SINK_H
 #define QDOT_BASE_SINK_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "base/status.h"
@@ -38,6 +39,10 @@ void qdot_sink_abandon(qdot_sink *sink);
 /* Write a whole file of `length` bytes; errors as of opening, writing and closing a sink. */
 QDOT_MUST_CHECK qdot_status qdot_sink_write(const char *path, const char *bytes,
                                             size_t length);
+
+/* Write `length` bytes to an open file at once, behind all that it holds back. A signal, as of Ctrl-C while a pipe is
+ * full, does not end that: what remains is written then. False, with errno: not all was written. */
+bool qdot_sink_write_to(FILE *file, const char *bytes, size_t length);
 
 /* Whether a file that no statement named may be written: there is none, or it begins with `mark`, as all that are
  * written so do. */

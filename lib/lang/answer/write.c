@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "base/sink.h"
 #include "base/wrap.h"
 #include "lang/answer/shown-text.h"
 #include "lang/session/output.h"
@@ -25,9 +26,7 @@ write_out(const qdot_session *session, FILE *file, qdot_text *text)
         qdot_text_clear(text);
         return status;
     }
-    if (status == QDOT_OK && fwrite(qdot_text_str(text), 1, text->n, file) != text->n)
-        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
-    if (status == QDOT_OK && fflush(file) != 0)
+    if (status == QDOT_OK && !qdot_sink_write_to(file, qdot_text_str(text), text->n))
         status = qdot_fail(QDOT_EIO, "standard output cannot be written");
     qdot_text_clear(text);
     return status;
