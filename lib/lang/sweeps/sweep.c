@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/process.h"
 #include "expr/symbol.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
@@ -47,7 +48,10 @@ read_number_of_threads(qdot_record *r, qdot_sweep *s)
         return QDOT_OK;
     QDOT_TRY(qdot_record_integer(r, part, &s->threads));
     if (s->threads >= 1 && s->threads <= MOST_THREADS)
-        return QDOT_OK;
+        return QDOT_MAY_THREAD || s->threads == 1
+                   ? QDOT_OK
+                   : qdot_answer_notice(r->cursor.session,
+                                        "this program was built with --disable-threads: one process makes all rows");
     qdot_record_blame(r, part);
     return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
 }

@@ -130,7 +130,7 @@ for what in "double a 0..5 max(a), min(b, 1..4), mean(energy), value(a, 5/2), ma
 done
 echo '# plans'
 cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/; s/, about as much again.*//; s/^memory: [78]\.[0-9] MB/memory: 8 MB nearly/; s/^memory: 0\.00[01][0-9]* MB/memory: 0.001 MB nearly/'
-qdot -q double.lag - <<'END' 2>&1 | sed "$cut"
+qdot -q double.lag - <<'END' 2>&1 | sed -e '/disable-threads/d' -e "$cut"
 plan sweep a = 0..1 count 1000, b = -pi..pi count 100 run 0..1 : a, under[2] threads 2
 plan sweep a = 0..1 count 8 run 0..1 : a
 plan sweep a = 0..1 count 20 run 0..1 : max(a)

@@ -8,7 +8,7 @@ event flip: cos(th2) = -1 stop
 END
 good='sweep th1 = -3..3 count 8, th2 = 0..3 count 5 run 0..20 tol 1e-9 : th2, max(abs(th1)), flip[1] as m'
 for n in 1 2 5; do
-    qdot -q --json scene.lag -e "$good threads $n" >"of-$n" 2>&1
+    qdot -q --json scene.lag -e "$good threads $n" 2>&1 | grep -v 'disable-threads' >"of-$n"
 done
 cmp of-1 of-2 && cmp of-1 of-5 && grep -c '"kind":"row"' of-1
 grep -q '"failed"' of-5 && echo 'some failed'
@@ -23,7 +23,7 @@ while kill -0 $pid 2>/dev/null && [ "${kills:-0}" -lt 4 ]; do
     sleep 0.02
 done
 wait $pid
-grep -v 'process that made the run has ended' of-killed | sort >a
+grep -v -e 'process that made the run has ended' -e 'disable-threads' of-killed | sort >a
 sort of-one | grep -F -x -f a | wc -l | tr -d ' ' >b
 [ "$(wc -l <a | tr -d ' ')" -ge 592 ] && [ "$(cat b)" = "$(wc -l <a | tr -d ' ')" ] && echo 'the rows are the same'
 if [ -e /proc/$$/task/$$/children ] && [ "${kills:-0}" = 0 ]; then
@@ -39,3 +39,8 @@ for wait in 1.5 5 15 45; do # until rows have come
     grep -q "interrupted: m has" long && break
 done
 grep -c 'interrupted: m has [0-9]* of 4000 rows' long
+echo '# a program that begins no processes says so'
+qdot scene.lag -e "$good threads 2" 2>&1 | grep -c 'disable-threads' >said
+qdot scene.lag -e "$good threads 1" 2>&1 | grep -c 'disable-threads' >>said
+qdot --version | grep -q 'disable-threads' && wanted=1 || wanted=0
+[ "$(tr '\n' ' ' <said)" = "$wanted 0 " ] || cat said
