@@ -88,6 +88,8 @@ qdot_ode_meter_add(qdot_ode_meter *m, double t, double work)
     m->work += work;
     if (m->direction * (t - m->far) > 0)
         m->far = t;
+    if (m->most > 0 && m->work > m->most)
+        return qdot_fail(QDOT_ELIMIT, "the run takes more work than it may");
     if (m->work < m->next)
         return QDOT_OK;
     set_mark(m);

@@ -38,6 +38,7 @@ struct qdot_ode_meter {
     const qdot_ode_meter *beside; /* meter of the run with which this work is compared, borrowed; NULL: no limit */
     double factor, allowance;
     double early_factor, early; /* like `factor` and `allowance`, but beside the other run's work up to the same time */
+    double most;       /* end with QDOT_ELIMIT beyond this much work; 0: no limit */
     double spent;      /* work of earlier attempts for the same purpose, which counts, too */
     double direction;  /* direction of time: +1 or -1 */
     double t0;
@@ -55,10 +56,11 @@ struct qdot_ode_meter {
 /* The reason that is stated when a companion run is ended; %.2g stands for the factor. */
 #define QDOT_ODE_METER_REASON "it would take more than %.2g times the work of this one"
 
-/* Begin to count the work of an integration from t0 towards t1; the fields beside, factor and allowance are kept. */
+/* Begin to count the work of an integration from t0 towards t1; the fields beside, factor, allowance and most are kept. */
 void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);
 
-/* Record that the integration has reached t with `work` more. QDOT_ELIMIT: it costs too much. */
+/* Record that the integration has reached t with `work` more. QDOT_ELIMIT: it costs too much, beside the other
+ * or by itself. */
 QDOT_MUST_CHECK qdot_status qdot_ode_meter_add(qdot_ode_meter *m, double t, double work);
 
 /* Record that the integration has ended: its total work then counts for all times beyond its end. */

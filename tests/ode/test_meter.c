@@ -44,6 +44,18 @@ what_costs_little_more_arrives(void **state)
     assert_true(fabs(work / 1.4e8 - 1) < 1e-9);
 }
 
+static void
+work_ends_at_its_limit(void **state)
+{
+    qdot_ode_meter m = {.most = 3e6};
+
+    (void)state;
+    qdot_ode_meter_begin(&m, 0, 1);
+    for (int k = 1; k <= 3; k++)
+        assert_int_equal(qdot_ode_meter_add(&m, 0.1 * k, 1e6), QDOT_OK);
+    assert_int_equal(qdot_ode_meter_add(&m, 0.4, 1e6), QDOT_ELIMIT);
+}
+
 /* A run stopped half way: companions may have come far beyond by then, or not, and all is the same. */
 static void
 what_lies_beyond_the_end_does_not_count(void **state)
@@ -215,6 +227,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_costs_little_more_arrives),
+        cmocka_unit_test(work_ends_at_its_limit),
         cmocka_unit_test(what_lies_beyond_the_end_does_not_count),
         cmocka_unit_test(what_goes_nowhere_is_given_up_early),
         cmocka_unit_test(the_faster_thread_changes_nothing),

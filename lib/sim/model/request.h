@@ -37,6 +37,7 @@ typedef struct {
                                      (sim/ensemble/ensemble.h) */
     bool by_clock;                /* t is one of the coordinates of the scene (sim/run/collide.h) */
     bool no_drifts;               /* conserved quantities are not searched for, since nobody reads the report */
+    double most_work;             /* the run fails beyond so much work of its integration (ode/meter.h); 0: no limit */
     const double *apart;          /* [2 x 2n] how far the run's two companions start from it, each in q and q', where the
                                      start has an error (qdot_run_end_apart); NULL: it is exact */
 } qdot_run_request;

@@ -30,6 +30,10 @@ static const double near_place = 0.05, nearly = 1e-3;
  * and steps are few. */
 static const double tight = 1e-15, tight_by_points = 1e-13;
 
+/* A run that came to its end is improved by one that may take so many times its work, and an allowance (in units of
+ * about 1 ns). One that failed at the collision says nothing of the work to the end: there is no limit. */
+static const double most_times = 4, allowance = 1e8;
+
 /* Steps in s are long in t: they are stored in so many parts, if they are fewer than these, so that
  * what is near in time is near among the points. */
 enum { parts = 8, most_refined = 64 };
@@ -48,6 +52,7 @@ typedef struct {
     qdot_run_chart *x;
     qdot_scene *scene; /* x->chart.scene, or the given scene */
     const qdot_run_request *request;
+    double most_work; /* limit of the work of a run in regular coordinates; 0: none */
     qdot_expr *accels;
     qdot_collision_equations of;
 } ground;
@@ -306,6 +311,7 @@ make_regularised_run(const ground *g, const qdot_run_maker *by, attempt *a, qdot
     other.apart = NULL;
     other.tol = fmin(other.tol, by_series ? tight : tight_by_points);
     other.by_clock = other.no_drifts = true;
+    other.most_work = g->most_work;
     QDOT_TRY(qdot_pool_check(c->pool));
     return by->make(c->scene, &other, out);
 }
@@ -344,13 +350,15 @@ run_in_regularised_time(const ground *g, const qdot_run_maker *by, qdot_run **ou
 {
     attempt a = {.n = g->x->collision.scene->coordinates.n};
     qdot_status status = prepare_regularised_run(g, &a);
+    bool too_long = false;
 
-    for (size_t k = 0; status == QDOT_OK && !*out && k < sizeof lengths / sizeof *lengths;
+    for (size_t k = 0; status == QDOT_OK && !*out && !too_long && k < sizeof lengths / sizeof *lengths;
          k++) {
         a.length = lengths[k] * 2 * a.T / a.R;
         status = make_regularised_run(g, by, &a, out);
         if (status == QDOT_OK && reaches_end(*out))
             break;
+        too_long = *out && g->most_work > 0 && (*out)->meter.work > g->most_work;
         by->free(*out);
         *out = NULL;
     }
@@ -572,6 +580,8 @@ qdot_run_collide(qdot_scene *s, const qdot_run_request *request, const qdot_run_
     *out = NULL;
     if (s->constraints.n > 0 || !run)
         return QDOT_OK;
+    if (run->report.status != QDOT_RUN_FAILED)
+        g.most_work = most_times * run->meter.work + allowance;
     QDOT_TRY(may_collide(&g, s, &found));
     if (!found)
         return QDOT_OK;

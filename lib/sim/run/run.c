@@ -533,7 +533,7 @@ make_run_once(qdot_scene *scene, const qdot_run_request *asked, double touch_tol
         return QDOT_ENOMEM;
     run->report.horizon = run->report.standstill = NAN;
     run->by_clock = request->by_clock;
-    run->no_drifts = request->no_drifts;
+    run->no_drifts = request->no_drifts, run->meter.most = request->most_work;
     run->turns = request->turns;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
