@@ -302,7 +302,7 @@ qdot_request_explain(qdot_session *session, const qdot_request *o, qdot_status s
     const qdot_error error = *qdot_last_error();
 
     if ((status == QDOT_EDOMAIN || status == QDOT_EFAILED) && error.hint[0] == '\0'
-        && qdot_multipliers_are_bound(session->scene))
+        && strstr(error.message, "root of a negative number") != NULL && qdot_multipliers_are_bound(session->scene))
         return qdot_hint("friction holds a multiplier: where the motion would determine no value of it, or two "
                          "(Painlev\u00e9's paradox), that force is undefined");
     if (status != QDOT_ESINGULAR)

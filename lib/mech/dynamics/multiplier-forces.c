@@ -156,22 +156,31 @@ can_be_solved(const friction *f, size_t k)
     return can;
 }
 
-/* The magnitude of h for its square: sign(u) counts 1 where that only changes the sign of h. */
+/* |h|, or its negative, for its square: h without its sign(u) where h has one sign(u) as a factor and no other; else h, whose
+ * magnitude differs with the signs (h = a sign(u) + b sign(v)). */
 static qdot_expr
 magnitude(const friction *f, qdot_expr h)
 {
-    qdot_expr plus = h, minus = h;
+    qdot_expr side = QDOT_NIL;
+    size_t sides = 0;
     qdot_walk walk;
 
     if (qdot_walk_begin(f->pool, h, &walk) != QDOT_OK)
         return qdot_pool_fail(f->pool);
     for (size_t i = 0; i < walk.n; i++)
         if (qdot_expr_is_function(f->pool, walk.at[i], QDOT_SIGN)) {
-            plus = qdot_subs(f->pool, plus, 1, &walk.at[i], &(qdot_expr){QDOT_ONE});
-            minus = qdot_subs(f->pool, minus, 1, &walk.at[i], &(qdot_expr){QDOT_MINUS_ONE});
+            side = walk.at[i];
+            sides++;
         }
     qdot_walk_end(&walk);
-    return qdot_mech_tidy(f->s, qdot_add(f->pool, plus, minus)) == QDOT_ZERO ? plus : h;
+    if (sides == 1) {
+        const qdot_expr plus = qdot_subs(f->pool, h, 1, &side, &(qdot_expr){QDOT_ONE}),
+                        minus = qdot_subs(f->pool, h, 1, &side, &(qdot_expr){QDOT_MINUS_ONE});
+
+        if (qdot_mech_tidy(f->s, qdot_add(f->pool, plus, minus)) == QDOT_ZERO)
+            return plus;
+    }
+    return h;
 }
 
 /* What constraint k needs while the multipliers that are unknown are 0. */
