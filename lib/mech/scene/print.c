@@ -233,13 +233,30 @@ qdot_scene_print_at(const qdot_scene *s, qdot_scene_kind kind, size_t k, qdot_te
     return QDOT_OK;
 }
 
-/* Print all items whose kind lies between the two given kinds, in the order of the enum of kinds. */
+/* Whether item k of that kind holds the multiplier of a constraint, which is then declared before it. */
+static bool
+holds_multiplier(const qdot_scene *s, qdot_scene_kind kind, size_t k)
+{
+    qdot_expr e = QDOT_NIL;
+
+    if (kind == QDOT_DISSIPATION)
+        e = s->dissipations.at[k].e;
+    else if (kind == QDOT_FORCE && k < s->forces.n)
+        e = s->forces.at[k].force;
+    else if (kind == QDOT_FORCE || kind == QDOT_TORQUE)
+        e = s->torques.at[qdot_scene_torque_at(s, kind, k)].torque;
+    return e != QDOT_NIL && (qdot_mech_holds(s, e) & QDOT_HAS_MULTIPLIER) != 0;
+}
+
+/* Print the items whose kind lies between the two given kinds, in the order of the enum of kinds: those that hold
+ * multipliers, or those that do not. */
 static qdot_status
-print_kinds(const qdot_scene *s, qdot_scene_kind from, qdot_scene_kind to, qdot_text *out)
+print_kinds(const qdot_scene *s, qdot_scene_kind from, qdot_scene_kind to, bool multipliers, qdot_text *out)
 {
     for (qdot_scene_kind kind = from; kind <= to; kind++)
         for (size_t k = 0; k < qdot_scene_count(s, kind); k++)
-            QDOT_TRY(qdot_scene_print_at(s, kind, k, out));
+            if (holds_multiplier(s, kind, k) == multipliers)
+                QDOT_TRY(qdot_scene_print_at(s, kind, k, out));
     return QDOT_OK;
 }
 
@@ -330,15 +347,16 @@ qdot_scene_print_things(const qdot_scene *s, qdot_text *out)
     }
     for (size_t i = 0; i < s->bodies.n; i++)
         QDOT_TRY(print_body(s, &s->bodies.at[i], out));
-    QDOT_TRY(print_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, out));
+    QDOT_TRY(print_kinds(s, QDOT_GRAVITY, QDOT_DISSIPATION, false, out));
     if (s->hamiltonian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "hamiltonian", s->hamiltonian, out));
     else if (s->higher_lagrangian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "lagrangian", s->higher_lagrangian, out));
     else if (s->lagrangian != QDOT_NIL)
         QDOT_TRY(print_statement(s, "lagrangian", s->lagrangian, out));
-    QDOT_TRY(print_kinds(s, QDOT_FORCE, QDOT_TORQUE, out));
+    QDOT_TRY(print_kinds(s, QDOT_FORCE, QDOT_TORQUE, false, out));
     QDOT_TRY(print_constraints(s, out));
+    QDOT_TRY(print_kinds(s, QDOT_DISSIPATION, QDOT_TORQUE, true, out));
     QDOT_TRY(print_list(s, "output ", s->outputs.n, s->outputs.at, out));
     for (size_t i = 0; i < s->events.n; i++)
         QDOT_TRY(qdot_event_print(s, &s->events.at[i], out));

@@ -2,6 +2,8 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "expr/node.h"
+#include "expr/print.h"
 #include "expr/symbol.h"
 #include "expr/walk.h"
 #include "mech/scene/access.h"
@@ -94,46 +96,7 @@ record_dependents(qdot_scene *s, const char *label, int body)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_scene_remove(qdot_scene *s, const char *label)
-{
-    const qdot_body *b = qdot_scene_find_body(s, label);
-    int body = b ? (int)(b - s->bodies.at) : -1;
-    const qdot_body_joint *joint;
-    bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
-
-    qdot_scene_forget_dropped(s);
-    if (qdot_scene_find_event(s, label)) { /* events do not affect the mechanics: removing one leaves derived results valid */
-        FILTER(s->events, p, qdot_label_is(p->name, label));
-        return found ? QDOT_OK : QDOT_EFAILED;
-    }
-    joint = qdot_scene_find_joint(s, label);
-    if (joint && joint->places) {
-        qdot_fail(QDOT_EINVAL, "joint %s has placed %s, which keeps its place", label, joint->end[1]);
-        return qdot_hint("`remove %.60s` takes the body with it; `undo` takes back the statements since", joint->end[1]);
-    }
-    if (!qdot_scene_has_label(s, label))
-        return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
-    if (on_thing)
-        QDOT_TRY(record_dependents(s, label, body));
-    FILTER(s->particles, p, qdot_label_is(p->name, label));
-    FILTER(s->bodies, p, qdot_label_is(p->name, label));
-    FILTER(s->springs, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
-    FILTER(s->dampers, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
-    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
-    FILTER(s->torques, p, qdot_label_is(p->name, label) || acts_on_body(p, body));
-    for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
-        s->torques.at[i].body -= s->torques.at[i].body > body;
-    FILTER(s->gravities, p, qdot_label_is(p->name, label));
-    FILTER(s->potentials, p, qdot_label_is(p->name, label));
-    FILTER(s->dissipations, p, qdot_label_is(p->name, label));
-    FILTER(s->constraints, p, qdot_label_is(p->label, label) || (body >= 0 && is_of_joint_of(s, p, label)));
-    FILTER(s->joints, p, qdot_label_is(p->name, label) || (body >= 0 && is_joined_to(p, label)));
-    qdot_scene_changed(s);
-    return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
-}
-
-/* --- states ---------------------------------------------------------------------------- */
+/* --- what is read by others ------------------------------------------------------------ */
 
 /* Whether a declaration holds the name, with no letter, digit or _ next to it. */
 static bool
@@ -147,7 +110,7 @@ holds_name(const char *text, const char *name)
     return false;
 }
 
-/* Append the first declaration that reads the state, as it would be typed; nothing: none was found. */
+/* Append the first declaration that reads the state or multiplier, as it would be typed; nothing: none was found. */
 static qdot_status
 print_reader(const qdot_scene *s, const char *name, qdot_text *out)
 {
@@ -187,7 +150,7 @@ label_in(const char *reader, size_t *length)
     return label;
 }
 
-/* Fail because the scene reads a state, with the declaration that does. */
+/* Fail because the scene reads a state or multiplier, with the declaration that does. */
 static qdot_status
 refuse_removal(const qdot_scene *s, const char *name)
 {
@@ -206,6 +169,96 @@ refuse_removal(const qdot_scene *s, const char *name)
     qdot_text_clear(&reader);
     return status;
 }
+
+/* Whether a force, torque or dissipation that is not removed with `label` holds x. `on_thing`: label is that of a particle
+ * or body, `body` the latter's index. */
+static bool
+is_held_by_what_stays(const qdot_scene *s, qdot_expr x, const char *label, bool on_thing, int body)
+{
+    bool held = false;
+
+    for (size_t i = 0; i < s->forces.n; i++) {
+        const qdot_force *f = &s->forces.at[i];
+
+        held = held || (!(on_thing && qdot_label_is(f->on, label)) && qdot_expr_contains(s->pool, f->force, x));
+    }
+    for (size_t i = 0; i < s->torques.n; i++)
+        held = held || (!acts_on_body(&s->torques.at[i], body) && qdot_expr_contains(s->pool, s->torques.at[i].torque, x));
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        held = held || qdot_expr_contains(s->pool, s->dissipations.at[i].e, x);
+    return held;
+}
+
+/* Whether a constraint goes with `label`. */
+static bool
+goes_with(const qdot_scene *s, const qdot_constraint *c, const char *label, int body)
+{
+    return qdot_label_is(c->label, label) || (body >= 0 && is_of_joint_of(s, c, label));
+}
+
+/* Fail if the multiplier of a constraint that goes with `label` is read by what stays. */
+static qdot_status
+check_multipliers(const qdot_scene *s, const char *label, bool on_thing, int body)
+{
+    qdot_text name = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < s->constraints.n && status == QDOT_OK; k++) {
+        const qdot_constraint *c = &s->constraints.at[k];
+
+        if (!goes_with(s, c, label, body) || !is_held_by_what_stays(s, c->multiplier, label, on_thing, body))
+            continue;
+        status = qdot_print(s->pool, c->multiplier, QDOT_PLAIN, &name);
+        if (status == QDOT_OK)
+            status = refuse_removal(s, qdot_text_str(&name));
+    }
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- things ------------------------------------------------------------------------------ */
+
+qdot_status
+qdot_scene_remove(qdot_scene *s, const char *label)
+{
+    const qdot_body *b = qdot_scene_find_body(s, label);
+    int body = b ? (int)(b - s->bodies.at) : -1;
+    const qdot_body_joint *joint;
+    bool found = false, on_thing = b || qdot_scene_find_particle(s, label);
+
+    qdot_scene_forget_dropped(s);
+    if (qdot_scene_find_event(s, label)) { /* events do not affect the mechanics: removing one leaves derived results valid */
+        FILTER(s->events, p, qdot_label_is(p->name, label));
+        return found ? QDOT_OK : QDOT_EFAILED;
+    }
+    joint = qdot_scene_find_joint(s, label);
+    if (joint && joint->places) {
+        qdot_fail(QDOT_EINVAL, "joint %s has placed %s, which keeps its place", label, joint->end[1]);
+        return qdot_hint("`remove %.60s` takes the body with it; `undo` takes back the statements since", joint->end[1]);
+    }
+    if (!qdot_scene_has_label(s, label))
+        return qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
+    QDOT_TRY(check_multipliers(s, label, on_thing, body));
+    if (on_thing)
+        QDOT_TRY(record_dependents(s, label, body));
+    FILTER(s->particles, p, qdot_label_is(p->name, label));
+    FILTER(s->bodies, p, qdot_label_is(p->name, label));
+    FILTER(s->springs, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
+    FILTER(s->dampers, p, qdot_label_is(p->name, label) || (on_thing && is_attached_to(p, label)));
+    FILTER(s->forces, p, qdot_label_is(p->name, label) || (on_thing && qdot_label_is(p->on, label)));
+    FILTER(s->torques, p, qdot_label_is(p->name, label) || acts_on_body(p, body));
+    for (size_t i = 0; body >= 0 && i < s->torques.n; i++)
+        s->torques.at[i].body -= s->torques.at[i].body > body;
+    FILTER(s->gravities, p, qdot_label_is(p->name, label));
+    FILTER(s->potentials, p, qdot_label_is(p->name, label));
+    FILTER(s->dissipations, p, qdot_label_is(p->name, label));
+    FILTER(s->constraints, p, goes_with(s, p, label, body));
+    FILTER(s->joints, p, qdot_label_is(p->name, label) || (body >= 0 && is_joined_to(p, label)));
+    qdot_scene_changed(s);
+    return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
+}
+
+/* --- states ---------------------------------------------------------------------------- */
 
 qdot_status
 qdot_scene_remove_state(qdot_scene *s, qdot_expr z)
